@@ -21,6 +21,17 @@ pub struct Arguments {
     /// The other file's clock, where it has another name.
     #[arg(long, value_name = "NAME")]
     other_clock: Option<String>,
+    /// Pairs names that differ in upper and lower case only, where no other name is equal.
+    #[arg(long)]
+    ignore_case: bool,
+    /// The ports out of GOLDEN, by their paths or the ends of them, where it does not tell them itself:
+    /// waves of this program do, and an FST with directions.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    ports_out: Vec<String>,
+    /// Ports out of GOLDEN to leave out, by their paths or the ends of them. Any other one that is not
+    /// compared is a difference.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    leave: Vec<String>,
     /// The scope of the other file that stands for golden's outermost scope, by its path or the end
     /// of its path; without it the one with the most signals of golden's, or none where the map
     /// names scopes.
@@ -57,8 +68,8 @@ pub struct Arguments {
     /// A golden signal without partner, or with one and without a value to compare, is a difference.
     #[arg(long)]
     strict: bool,
-    /// Ports of golden's outermost scope may be without partner, and hardly anything may have one;
-    /// otherwise that is a difference.
+    /// Ports in of golden's outermost scope may be without partner, and hardly anything may have one;
+    /// otherwise that is a difference. Ports out are compared all the same.
     #[arg(long, conflicts_with = "strict")]
     allow_missing: bool,
     /// One file may have ticks behind the other's last one; otherwise that is a difference.
@@ -94,7 +105,10 @@ pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
         clock: arguments.clock.clone(),
         other_clock: arguments.other_clock.clone(),
         scope: arguments.scope.clone(),
+        ignore_case: arguments.ignore_case,
         map,
+        ports_out: arguments.ports_out.clone(),
+        leave: arguments.leave.clone(),
         skip: arguments.skip,
         ticks: arguments.from..arguments.from.saturating_add(count),
         around: arguments.around,
@@ -108,15 +122,22 @@ pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
         true => print_json(&report)?,
         false => print(&report.text(arguments.all))?,
     }
-    if !report.is_equal() {
+    if report.differs() {
         return Err(Failure::Check("the files differ".into()));
     }
-    let ports = report.ports_without_partner.len();
+    let missed = report.ports_out_not_compared.len();
+    if missed > 0 {
+        return Err(Failure::Check(format!(
+            "ports out of golden not compared: {missed}; a map pairs them, --leave or leave in a map \
+             leaves out those that it names"
+        )));
+    }
+    let ports = report.ports_in_without_partner.len();
     if !arguments.allow_missing && !arguments.strict {
         let what = match ports {
             0 if report.hardly_pairs() => "almost nothing pairs".to_owned(),
             0 => String::new(),
-            _ => format!("ports of golden without partner: {ports}"),
+            _ => format!("ports in of golden without partner: {ports}"),
         };
         if !what.is_empty() {
             return Err(Failure::Check(format!(

@@ -18,6 +18,10 @@ pub(super) struct Tally {
     pub unknown: u64,
     pub differing: u64,
     pub first: Option<i128>,
+    /// The first known golden value.
+    golden: Option<Value>,
+    /// There were two different known golden values.
+    pub moved: bool,
 }
 
 impl Samples {
@@ -47,12 +51,21 @@ impl Samples {
 }
 
 impl Tally {
+    /// Takes a known golden value.
+    fn see(&mut self, value: Value) {
+        self.moved |= *self.golden.get_or_insert(value) != value;
+    }
+
     /// Takes over what later ticks came to.
     pub fn add(&mut self, later: Self) {
         self.compared += later.compared;
         self.unknown += later.unknown;
         self.differing += later.differing;
         self.first = self.first.or(later.first);
+        self.moved |= later.moved;
+        if let Some(value) = later.golden {
+            self.see(value);
+        }
     }
 }
 
@@ -88,6 +101,7 @@ pub(super) fn hold(golden: &Samples, other: &Samples, ticks: Range<i128>) -> Tal
             tally.unknown += length;
         } else {
             tally.compared += length;
+            tally.see(expected);
             if expected != found {
                 tally.differing += length;
                 tally.first.get_or_insert(now);
@@ -129,10 +143,19 @@ mod tests {
             unknown: 0,
             differing: 1,
             first: Some(20),
+            golden: Some(Value::HIGH.inverted(1)),
+            moved: true,
         };
         assert_eq!(tally, expected);
         assert_eq!(hold(&golden, &other, 21..30).differing, 0);
         assert_eq!(hold(&golden, &other, 20..21).first, Some(20));
+        // Within 10 to 19 it holds still, and moves from one such range to another.
+        let mut still = hold(&golden, &other, 10..20);
+        assert!(!still.moved);
+        still.add(hold(&golden, &other, 15..20));
+        assert!(!still.moved);
+        still.add(hold(&golden, &other, 20..21));
+        assert!(still.moved);
         assert_eq!((golden.at(19), other.at(20)), (Value::HIGH, Value::HIGH));
     }
 

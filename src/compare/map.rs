@@ -14,6 +14,7 @@ const PARTNER: &str = "a path in quotes, as \"tb.dut.count\", \"!tb.dut.step_n\"
 ///
 /// let map = Map::parse("names.toml", r#"
 /// ignore = ["top.debug", "top.memory.*"]         # left out on purpose
+/// leave = ["top.alarm"]                          # ports out that are left out
 ///
 /// [scopes]                                       # and everything below them, nothing beside
 /// "top.counter" = "tb.dut.u_timer"
@@ -35,6 +36,7 @@ const PARTNER: &str = "a path in quotes, as \"tb.dut.count\", \"!tb.dut.step_n\"
 pub struct Map {
     pub(super) file: String,
     pub(super) ignore: Vec<Entry<()>>,
+    pub(super) leave: Vec<Entry<()>>,
     pub(super) scopes: Vec<Entry<String>>,
     pub(super) signals: Vec<Entry<Partner>>,
 }
@@ -62,6 +64,8 @@ struct Written {
     #[serde(default)]
     ignore: Vec<Spanned<String>>,
     #[serde(default)]
+    leave: Vec<Spanned<String>>,
+    #[serde(default)]
     scopes: BTreeMap<Spanned<String>, Spanned<String>>,
     #[serde(default)]
     signals: BTreeMap<Spanned<String>, Spanned<Value>>,
@@ -87,8 +91,8 @@ impl Map {
             let line = line(error.span().map_or(0, |span| span.start));
             let field = text.lines().nth(line - 1).unwrap_or("").split('=').next();
             let field = field.map(str::trim).filter(|field| !field.is_empty());
-            let allowed = "ignore = [\"golden name\"] first, then [scopes] and [signals] with lines \
-                           of \"golden name\" = \"other name\"";
+            let allowed = "ignore = [\"golden name\"] and leave = [\"port out\"] first, then [scopes] \
+                           and [signals] with lines of \"golden name\" = \"other name\"";
             Fault::new(file, line, field.unwrap_or("file"), error.message().trim(), allowed)
         })?;
         let golden = |name: &Spanned<String>| (line(name.span().start), name.get_ref().clone());
@@ -96,14 +100,19 @@ impl Map {
             file: file.to_owned(),
             ..Map::default()
         };
-        for name in &written.ignore {
-            let (line, golden) = golden(name);
-            map.ignore.push(Entry {
-                line,
-                golden,
-                other: (),
-            });
-        }
+        let plain = |names: &[Spanned<String>]| {
+            let entry = |name| {
+                let (line, golden) = golden(name);
+                let other = ();
+                Entry {
+                    line,
+                    golden,
+                    other,
+                }
+            };
+            names.iter().map(entry).collect()
+        };
+        (map.ignore, map.leave) = (plain(&written.ignore), plain(&written.leave));
         for (name, scope) in written.scopes {
             let (line, golden) = golden(&name);
             let other = scope.into_inner();
@@ -116,9 +125,9 @@ impl Map {
         for (name, value) in written.signals {
             let (line, golden) = golden(&name);
             let other = match (golden.as_str(), value.get_ref()) {
-                ("ignore", Value::Array(_)) => Err((
+                ("ignore" | "leave", Value::Array(_)) => Err((
                     "stands below [signals]".into(),
-                    "ignore above [scopes] and [signals]",
+                    "ignore and leave above [scopes] and [signals]",
                 )),
                 (_, value) => partner(value),
             };
@@ -228,12 +237,12 @@ mod tests {
 
     #[test]
     fn what_is_no_map_is_refused_with_its_line() {
-        const KEYS: &str = "ignore = [\"golden name\"] first, then [scopes] and [signals] with lines of \"golden name\" = \"other name\"";
+        const KEYS: &str = "ignore = [\"golden name\"] and leave = [\"port out\"] first, then [scopes] and [signals] with lines of \"golden name\" = \"other name\"";
         let partner = format!("; allowed: {PARTNER}");
         refuse(
             "\n[signal]\n",
             &format!(
-                "m.toml:2: [signal]: unknown field `signal`, expected one of `ignore`, `scopes`, `signals`; allowed: {KEYS}"
+                "m.toml:2: [signal]: unknown field `signal`, expected one of `ignore`, `leave`, `scopes`, `signals`; allowed: {KEYS}"
             ),
         );
         refuse(
@@ -264,7 +273,7 @@ mod tests {
         );
         refuse(
             "[signals]\nignore = [\"t.a\"]\n",
-            "m.toml:2: ignore: stands below [signals]; allowed: ignore above [scopes] and [signals]",
+            "m.toml:2: ignore: stands below [signals]; allowed: ignore and leave above [scopes] and [signals]",
         );
     }
 }

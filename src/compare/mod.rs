@@ -29,13 +29,19 @@
 //! are the same as `mem[5]`; where the
 //! other file has a memory of single bits as a vector, they are its bits. A [`Map`] pairs what has
 //! other names; the end of a path will do for the other file's, where it is the only one. Clocks,
-//! and variables without bits, are not compared.
+//! and variables without bits, are not compared. Signals of a clock's name with the same edges
+//! are one clock.
 //!
 //! **Values.** A known golden value equals the same bits and no x or z. A golden value with an x or
 //! z, or before the first value of a signal, is not compared. Signals of more than 64 bits are not
 //! compared. A partner of another width is a difference. What is not compared is counted, and pairs
 //! of which no value was compared are named: that nothing of them differs says nothing. Where no
 //! value of any pair was compared, that is an error.
+//!
+//! **Ports out.** Two files are equal only if every port out of golden's outermost circuit was compared.
+//! Waves of this crate tell which they are, an FST by the directions of its variables; for other
+//! golden files [`Settings::ports_out`] names them. [`Settings::leave`] and `leave` in a [`Map`] leave
+//! some out by name.
 //!
 //! **Ticks of both.** Tick n of the golden file is held against tick n + [`Settings::skip`] of the
 //! other. What only one of them has is counted, by itself what one has behind the other's last tick:
@@ -52,6 +58,7 @@ mod map;
 mod mapped;
 mod names;
 mod pair;
+mod ports;
 mod quiet;
 mod render;
 mod report;
@@ -70,6 +77,7 @@ pub use report::{Cell, Difference, Mismatch, Report, Row, Side, WidthDifference}
 pub use value::WIDEST;
 
 use crate::input::{Fault, size};
+use ports::Ports;
 use runs::{Run, Runs, span};
 use std::ops::Range;
 use std::panic::resume_unwind;
@@ -88,8 +96,14 @@ pub struct Settings {
     /// end of its path; without it the one with the most partners, or none where the map names
     /// scopes.
     pub scope: Option<String>,
+    /// Pairs names that differ in upper and lower case only, where no other name is equal.
+    pub ignore_case: bool,
     /// Names that differ, and signals to leave out.
     pub map: Map,
+    /// The ports out of a golden file that does not tell them, by their paths or the ends of them.
+    pub ports_out: Vec<String>,
+    /// Ports out that are not compared, by their paths or the ends of them.
+    pub leave: Vec<String>,
     /// The tick of the other file that is held against golden's tick 0. Below 0 where the other
     /// file begins later.
     pub skip: i64,
@@ -106,7 +120,10 @@ impl Default for Settings {
             clock: "clk".to_owned(),
             other_clock: None,
             scope: None,
+            ignore_case: false,
             map: Map::default(),
+            ports_out: Vec::new(),
+            leave: Vec::new(),
             skip: 0,
             ticks: 0..u64::MAX,
             around: 4,
@@ -123,8 +140,8 @@ impl Default for Settings {
 ///
 /// # Errors
 /// A file that cannot be read or is no complete VCD or FST, a clock that is none or is not to be
-/// found, no scope or more than one that stands for golden's, a map that does not fit the files,
-/// nothing to compare.
+/// found, a golden file without ports out, no scope or more than one that stands for golden's, a map
+/// that does not fit the files, nothing to compare.
 pub fn compare(golden: &Path, other: &Path, settings: &Settings) -> Result<Report, Fault> {
     let (golden, other) = read(golden, other)?;
     compare_waves(golden, other, settings)
@@ -136,10 +153,15 @@ pub fn compare(golden: &Path, other: &Path, settings: &Settings) -> Result<Repor
 /// # Errors
 /// A file, a clock or a map as [`compare`] refuses them.
 pub fn template(golden: &Path, other: &Path, settings: &Settings) -> Result<String, Fault> {
-    let (golden, other) = read(golden, other)?;
-    let clocks = clocks(&golden, &other, settings)?;
+    let (mut golden, mut other) = read(golden, other)?;
+    let clocks = clocks(&mut golden, &mut other, settings)?;
     let scope = settings.scope.as_deref();
-    let pairing = pair::pair(&golden, &other, clocks, &settings.map, scope, true)?;
+    let known = golden.ports_out.is_some() || !settings.ports_out.is_empty();
+    let ports = match known {
+        true => Ports::of(&golden, clocks.0, settings)?,
+        false => Ports::default(),
+    };
+    let pairing = pair::pair(&golden, &other, clocks, &settings.map, ports, scope, true)?;
     Ok(template::skeleton(&golden, &other, clocks.1, &pairing))
 }
 
@@ -160,24 +182,32 @@ fn read(golden: &Path, other: &Path) -> Result<(Wave, Wave), Fault> {
     })
 }
 
-fn clocks(golden: &Wave, other: &Wave, settings: &Settings) -> Result<(usize, usize), Fault> {
+fn clocks(
+    golden: &mut Wave,
+    other: &mut Wave,
+    settings: &Settings,
+) -> Result<(usize, usize), Fault> {
+    if settings.ignore_case {
+        other.fold_case();
+    }
     let clock = ticks::clock(golden, "--clock", &settings.clock, None)?;
     let other_clock = match &settings.other_clock {
         Some(name) => ticks::clock(other, "--other-clock", name, None)?,
         None => {
             let path = golden.variables[clock].path.as_str();
             let name = settings.clock.rsplit('.').next().unwrap_or_default();
-            ticks::clock(other, "--clock", name, Some(path))?
+            ticks::clock(other, "--other-clock", name, Some(path))?
         }
     };
     Ok((clock, other_clock))
 }
 
 fn compare_waves(mut golden: Wave, mut other: Wave, settings: &Settings) -> Result<Report, Fault> {
-    let (clock, other_clock) = clocks(&golden, &other, settings)?;
+    let (clock, other_clock) = clocks(&mut golden, &mut other, settings)?;
     let scope = settings.scope.as_deref();
     let both = (clock, other_clock);
-    let pairing = pair::pair(&golden, &other, both, &settings.map, scope, false)?;
+    let ports = Ports::of(&golden, clock, settings)?;
+    let pairing = pair::pair(&golden, &other, both, &settings.map, ports, scope, false)?;
     if let Some(fault) = pair::nothing(&golden, &other, &pairing) {
         return Err(fault);
     }
@@ -221,7 +251,7 @@ fn compare_waves(mut golden: Wave, mut other: Wave, settings: &Settings) -> Resu
         common,
     };
     let report = runs.report(pairing, settings)?;
-    match report.values == 0 && report.is_equal() {
+    match report.values == 0 && !report.differs() {
         false => Ok(report),
         true => Err(runs.no_value(&report)),
     }

@@ -3,6 +3,7 @@
 use super::map::{Entry, Map};
 use super::mapped::{by_name, golden_signal, ignored, scopes};
 use super::names::{brackets, element, listed};
+use super::ports::Ports;
 use super::report::WidthDifference;
 use super::scope;
 use super::value::WIDEST;
@@ -31,6 +32,7 @@ pub(super) struct Pairing {
     pub pairs: Vec<Pair>,
     /// The scope that stands for golden's top, where it was needed.
     pub scope: Option<String>,
+    pub ports: Ports,
     pub ignored: Vec<usize>,
     pub without_partner: Vec<usize>,
     pub too_wide: Vec<usize>,
@@ -46,16 +48,22 @@ pub(super) fn pair(
     other: &Wave,
     clocks: (usize, usize),
     map: &Map,
+    ports: Ports,
     wanted: Option<&str>,
     allowed: bool,
 ) -> Result<Pairing, Fault> {
     let clock = golden.variables[clocks.0].signal;
     let signals =
         (0..golden.variables.len()).filter(|&index| golden.variables[index].signal != clock);
-    let mut pairing = Pairing::default();
     let ignored = ignored(golden, map)?;
-    let (out, open): (Vec<usize>, Vec<usize>) = signals.partition(|index| ignored.contains(index));
-    pairing.ignored = out;
+    let (out, open): (Vec<usize>, Vec<usize>) = signals
+        .filter(|index| !ports.left.contains(index))
+        .partition(|index| ignored.contains(index));
+    let mut pairing = Pairing {
+        ignored: out,
+        ports,
+        ..Pairing::default()
+    };
 
     let mut named = HashSet::new();
     for entry in &map.signals {
@@ -77,7 +85,7 @@ pub(super) fn pair(
             ));
         }
         let pair = by_name(other, map, entry, index)?;
-        if !ignored.contains(&index) {
+        if !ignored.contains(&index) && !pairing.ports.left.contains(&index) {
             pairing.add(golden, pair);
         }
     }
@@ -108,7 +116,7 @@ pub(super) fn pair(
     let scope = match scopes[..] {
         [_, ..] if wanted.is_none() => None,
         _ => {
-            let paired = allowed || !pairing.pairs.is_empty();
+            let paired = allowed || pairing.has_partners();
             scope::find(golden, other, clocks.1, &rest, wanted, paired)?
         }
     };
@@ -137,6 +145,11 @@ impl Pairing {
         let mut used: HashSet<_> = pairs.map(signal).collect();
         let all = 0..other.variables.len();
         all.filter(|&index| used.insert(signal(index))).collect()
+    }
+
+    /// True if a golden signal has a partner, compared or not.
+    fn has_partners(&self) -> bool {
+        !self.pairs.is_empty() || !self.not_compared.is_empty()
     }
 
     fn try_path(&mut self, golden: &Wave, other: &Wave, index: usize, name: &str) {
@@ -206,6 +219,13 @@ pub(super) fn partner(golden: &Wave, other: &Wave, index: usize, name: &str) -> 
 pub(super) fn nothing(golden: &Wave, other: &Wave, pairing: &Pairing) -> Option<Fault> {
     if !pairing.pairs.is_empty() || !pairing.widths.is_empty() {
         return None;
+    }
+    if !pairing.too_wide.is_empty() {
+        let wide = pairing.too_wide.iter();
+        let wide: Vec<_> = wide.map(|&index| &golden.variables[index].path).collect();
+        let problem = format!("nothing pairs but signals of more than {WIDEST} bits");
+        let allowed = format!("a narrower signal beside {}", listed(&wide));
+        return Some(Fault::new(&other.file, 0, "file", problem, allowed));
     }
     let alone: Vec<_> = pairing
         .without_partner

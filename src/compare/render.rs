@@ -41,29 +41,41 @@ impl Report {
             let all = paired + self.without_partner.len();
             write!(out, "almost nothing pairs, {paired} of {all} signals; ")?;
         }
-        let ports = &self.ports_without_partner;
-        if !ports.is_empty() {
-            write!(out, "ports of golden without partner: {}; ", listed(ports))?;
+        let ports = [
+            (
+                "ports out of golden not compared",
+                &self.ports_out_not_compared,
+            ),
+            ("ports out left out", &self.ports_out_left),
+            (
+                "ports in of golden without partner",
+                &self.ports_in_without_partner,
+            ),
+        ];
+        for (what, ports) in ports.iter().filter(|(_, ports)| !ports.is_empty()) {
+            write!(out, "{what}: {}; ", listed(ports))?;
         }
+        let complete = ports.iter().all(|(_, ports)| ports.is_empty()) && !self.hardly_pairs();
         for (which, side) in [("golden", &self.golden), ("other", &self.other)] {
             if side.longer > 0 {
                 write!(out, "{which} is {} longer; ", count(side.longer, "tick"))?;
             }
         }
-        match self.is_equal() {
-            true if !ports.is_empty() || self.hardly_pairs() => {
-                writeln!(out, "what pairs is equal: {ticks}, {signals}, {values}")?;
-            }
-            true if !self.same_length() => {
-                writeln!(out, "what both have is equal: {ticks}, {signals}, {values}")?;
-            }
-            true => writeln!(out, "equal: {ticks}, {signals}, {values}")?,
-            false => writeln!(
-                out,
-                "different: {} of {signals}, in {ticks}, {values}",
-                self.differences.len()
-            )?,
-        }
+        let verdict = match self.differs() {
+            false if !complete => "what is compared is equal:".to_owned(),
+            false if !self.same_length() => "what both have is equal:".to_owned(),
+            false => "equal:".to_owned(),
+            true => format!("different: {} of {signals}, in", self.differences.len()),
+        };
+        let compared = match self.differs() {
+            false => format!("{ticks}, {signals}, {values}"),
+            true => format!("{ticks}, {values}"),
+        };
+        let (moved, still) = (self.moved, self.never_changed.len());
+        writeln!(
+            out,
+            "{verdict} {compared}; in golden {moved} moved, {still} never changed"
+        )?;
         self.side(out, "golden", &self.golden, None)?;
         self.side(out, "other", &self.other, self.scope.as_deref())?;
         if let Some(first) = &self.first {
@@ -136,11 +148,16 @@ impl Report {
         list("different width in bits, not compared", &widths)?;
         list("golden signals without partner", &self.without_partner)?;
         if all {
+            list(
+                "compared signals that never changed in golden",
+                &self.never_changed,
+            )?;
             let title = "signals of the other file without partner";
             list(title, &self.other_without_partner)?;
         }
         list("pairs without a value to compare", &self.without_values)?;
         list("ignored", &self.ignored)?;
+        list("ports out left out", &self.ports_out_left)?;
         list("wider than 64 bits, not compared", &self.too_wide)?;
         let counts = [
             (
@@ -153,6 +170,7 @@ impl Report {
             ),
             (self.without_values.len() as u64, "without a value"),
             (self.ignored.len() as u64, "ignored"),
+            (self.ports_out_left.len() as u64, "left out"),
             (self.different_widths.len() as u64, "of different width"),
             (self.too_wide.len() as u64, "too wide"),
             (self.golden.without_bits as u64, "without bits in golden"),

@@ -22,9 +22,18 @@ pub struct Report {
     pub values: u64,
     /// Values with an x or z in the golden file. They are not compared.
     pub unknown_values: u64,
-    /// Ports of golden's outermost scope without a partner, as far as the file tells which they are: a
-    /// VCD tells those in, an FST all.
-    pub ports_without_partner: Vec<String>,
+    /// Compared signals that have more than one value in the golden file in these ticks.
+    pub moved: usize,
+    /// Compared signals that have one value in the golden file in all of these ticks.
+    pub never_changed: Vec<String>,
+    /// Ports out of the golden file.
+    pub ports_out: Vec<String>,
+    /// Ports out of which no value was compared.
+    pub ports_out_not_compared: Vec<String>,
+    /// Ports out that the settings or the map leave out.
+    pub ports_out_left: Vec<String>,
+    /// Ports in of golden's outermost scope without a partner.
+    pub ports_in_without_partner: Vec<String>,
     /// Golden signals without a partner.
     pub without_partner: Vec<String>,
     /// Signals of the other file that are no partner.
@@ -136,19 +145,24 @@ pub struct Cell {
 }
 
 impl Report {
-    /// Whether everything that was compared is equal, and no partner has another width. What was not
-    /// compared stands in the lists.
+    /// True if nothing differs and every port out was compared or left out by its name. What else
+    /// was not compared stands in the lists.
     pub fn is_equal(&self) -> bool {
-        self.differences.is_empty() && self.different_widths.is_empty()
+        !self.differs() && self.ports_out_not_compared.is_empty()
     }
 
-    /// Whether neither file has ticks behind the other's last one. A file that is cut off behind a
+    /// True if a compared signal differs or a partner has another width.
+    pub fn differs(&self) -> bool {
+        !self.differences.is_empty() || !self.different_widths.is_empty()
+    }
+
+    /// True if neither file has ticks behind the other's last one. A file that is cut off behind a
     /// time differs from a whole one in nothing else.
     pub fn same_length(&self) -> bool {
         self.golden.longer == 0 && self.other.longer == 0
     }
 
-    /// Whether hardly any golden signal has a partner, so that two designs may have been compared
+    /// True if hardly any golden signal has a partner, so that two designs may have been compared
     /// that have nothing to do with each other.
     pub fn hardly_pairs(&self) -> bool {
         10 * self.paired() < self.paired() + self.without_partner.len()

@@ -5,6 +5,7 @@ use super::report::{Difference, Report, Side};
 use super::ticks::Ticks;
 use super::wave::Wave;
 use crate::input::Fault;
+use std::collections::HashSet;
 use std::ops::Range;
 
 /// One file with its ticks.
@@ -108,12 +109,18 @@ impl Runs {
     }
 
     pub fn report(&self, pairing: Pairing, settings: &Settings) -> Result<Report, Fault> {
-        let (mut values, mut unknown) = (0, 0);
+        let (mut values, mut unknown, mut moved) = (0, 0, 0);
         let (mut differing, mut without_values) = (Vec::new(), Vec::new());
+        let (mut compared, mut still) = (HashSet::new(), Vec::new());
         for (place, pair) in pairing.pairs.iter().enumerate() {
             let tally = self.tally(pair)?;
-            if tally.compared == 0 {
-                without_values.push(pair.golden);
+            match (tally.compared, tally.moved) {
+                (0, _) => without_values.push(pair.golden),
+                (_, true) => moved += 1,
+                (_, false) => still.push(pair.golden),
+            }
+            if tally.compared > 0 {
+                compared.insert(pair.golden);
             }
             values += tally.compared;
             unknown += tally.unknown;
@@ -139,10 +146,16 @@ impl Runs {
         });
         let is_port = |index: &usize| {
             let variable = &golden.wave.variables[*index];
-            variable.path.matches('.').count() == 1 && (variable.input || variable.output)
+            let above = variable.path.matches('.').count() == 1;
+            above && variable.input && !pairing.ports.out.contains(index)
         };
-        let ports = pairing.without_partner.iter().copied().filter(is_port);
-        let ports: Vec<usize> = ports.collect();
+        let ports_in = pairing.without_partner.iter().copied().filter(is_port);
+        let ports_in: Vec<usize> = ports_in.collect();
+        let ports_out = &pairing.ports.out;
+        let is_left = |index: &usize| pairing.ports.left.contains(index);
+        let (left, held): (Vec<_>, Vec<_>) = ports_out.iter().partition(|index| is_left(index));
+        let missed = held.into_iter().filter(|index| !compared.contains(index));
+        let missed: Vec<usize> = missed.collect();
         let window = i128::from(settings.ticks.start)..i128::from(settings.ticks.end);
         let side = |start: i128, run: &Run| {
             let end = (start + i128::from(run.ticks.count)).min(window.end);
@@ -165,7 +178,12 @@ impl Runs {
             signals: pairing.pairs.len() - without_values.len(),
             values,
             unknown_values: unknown,
-            ports_without_partner: paths(&golden.wave, &ports),
+            moved,
+            never_changed: paths(&golden.wave, &still),
+            ports_out: paths(&golden.wave, ports_out),
+            ports_out_not_compared: paths(&golden.wave, &missed),
+            ports_out_left: paths(&golden.wave, &left),
+            ports_in_without_partner: paths(&golden.wave, &ports_in),
             without_partner: paths(&golden.wave, &pairing.without_partner),
             other_without_partner: paths(&other.wave, &free),
             ignored: paths(&golden.wave, &pairing.ignored),

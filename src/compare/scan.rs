@@ -21,10 +21,45 @@ const ROOM: u64 = 1 << 30;
 pub(super) struct Scanned {
     /// Written by this crate.
     pub ours: bool,
+    /// Paths of the ports out, where a comment names them.
+    pub ports_out: Option<Vec<String>>,
     /// When its dump was switched off, in order.
     pub gaps: Vec<Gap>,
-    /// Bytes that are nothing to the reader: it panics at a second `$date` or `$version`.
-    pub again: Vec<Range<usize>>,
+    /// How to make the file one that the reader takes.
+    pub edits: Edits,
+    /// Variables without bits that the edits leave out.
+    pub without_bits: usize,
+}
+
+/// Changes to a file before it is read: what is not compared must not make it unreadable.
+#[derive(Debug, Default)]
+pub(super) struct Edits {
+    /// Bytes to replace by spaces, such as a second `$version` and values that are none.
+    blank: Vec<Range<usize>>,
+    /// Digits that stand apart from their code, and the place in front of that.
+    moved: Vec<(usize, usize)>,
+    /// The end of the header, in which any white space is a space.
+    header: usize,
+    /// The end of the file, where a dump is switched off and never on again.
+    end: Option<usize>,
+}
+
+impl Edits {
+    /// Makes them.
+    pub fn apply(&self, bytes: &mut Vec<u8>) {
+        for blank in &self.blank {
+            bytes[blank.clone()].fill(b' ');
+        }
+        for &(from, to) in &self.moved {
+            bytes[to] = bytes[from];
+            bytes[from] = b' ';
+        }
+        let header = &mut bytes[..self.header];
+        for tab in header.iter_mut().filter(|byte| **byte == b'\t') {
+            *tab = b' ';
+        }
+        bytes.truncate(self.end.unwrap_or(bytes.len()));
+    }
 }
 
 /// What the values of a code are.
@@ -33,6 +68,9 @@ enum Kind {
     Bits(u32),
     Real,
     String,
+    /// No value at all, whatever stands there: a variable without a width, or with one that is too
+    /// large to be compared.
+    Nothing,
 }
 
 /// The words of a file with their lines.
@@ -51,7 +89,14 @@ pub(super) fn check(file: &str, bytes: &[u8]) -> Result<Scanned, Fault> {
         place: 0,
         line: 1,
     };
-    let Header { codes, ours, again } = header(&mut words)?;
+    let Header {
+        codes,
+        ours,
+        ports_out,
+        mut blank,
+        without_bits,
+    } = header(&mut words)?;
+    let header = words.place;
     if codes.is_empty() {
         return Err(Fault::new(
             file,
@@ -61,17 +106,30 @@ pub(super) fn check(file: &str, bytes: &[u8]) -> Result<Scanned, Fault> {
             "a VCD with signals",
         ));
     }
-    let (ends_with_time, gaps) = body(&mut words, &codes)?;
+    let body = body(&mut words, &codes)?;
     let whole_line = bytes.last() == Some(&b'\n');
     // Others may do without the last line's end.
     if ours && !whole_line {
         return Err(words.cut_off("the file ends within this line"));
     }
-    if ours && !ends_with_time {
+    if ours && !body.ends_with_time {
         words.line -= 1;
         return Err(words.cut_off("the last line is no time"));
     }
-    Ok(Scanned { ours, gaps, again })
+    blank.extend(body.blank);
+    let edits = Edits {
+        blank,
+        moved: body.moved,
+        header,
+        end: body.off.map(|(place, ..)| place),
+    };
+    Ok(Scanned {
+        ours,
+        ports_out,
+        gaps: body.gaps,
+        edits,
+        without_bits,
+    })
 }
 
 impl<'a> Words<'a> {
@@ -103,6 +161,35 @@ impl<'a> Words<'a> {
         self.fault(b"file", problem, "a complete VCD: this one is cut off")
     }
 
+    /// The code behind a real number or a string: the next word, or the last one in the line, as a
+    /// text may have spaces.
+    fn code_of_text(&mut self, codes: &HashMap<&[u8], Kind>) -> Option<&'a [u8]> {
+        let from = self.place;
+        let line = self.bytes[from..].iter().position(|&byte| byte == b'\n');
+        let line = line.map_or(self.bytes.len(), |length| from + length);
+        let next = self.next()?;
+        let is_text = |code: &[u8]| {
+            codes
+                .get(code)
+                .is_some_and(|kind| !matches!(kind, Kind::Bits(_)))
+        };
+        if is_text(next) || self.place > line {
+            return Some(next);
+        }
+        let text = self.bytes[from..line].trim_ascii_end();
+        let start = text
+            .iter()
+            .rposition(u8::is_ascii_whitespace)
+            .map_or(0, |space| space + 1);
+        match is_text(&text[start..]) {
+            true => {
+                self.place = from + text.len();
+                Some(&text[start..])
+            }
+            false => Some(next),
+        }
+    }
+
     /// The words of a command up to its `$end`.
     fn command(&mut self, name: &[u8]) -> Result<Vec<&'a [u8]>, Fault> {
         let line = self.line;
@@ -121,15 +208,27 @@ impl<'a> Words<'a> {
     }
 }
 
-/// Whether the last word is a time, and when the dump is switched off.
-fn body(words: &mut Words<'_>, codes: &HashMap<&[u8], Kind>) -> Result<(bool, Vec<Gap>), Fault> {
+/// What there is to know of the values.
+#[derive(Default)]
+struct Body {
+    /// The last word is a time.
+    ends_with_time: bool,
+    /// When the dump is switched off for a while.
+    gaps: Vec<Gap>,
+    /// Where it is switched off, when, and if there are values before.
+    off: Option<(usize, u64, bool)>,
+    blank: Vec<Range<usize>>,
+    moved: Vec<(usize, usize)>,
+}
+
+fn body(words: &mut Words<'_>, codes: &HashMap<&[u8], Kind>) -> Result<Body, Fault> {
+    let mut body = Body::default();
     let mut now = None;
-    let mut gaps: Vec<Gap> = Vec::new();
     let mut room = ROOM;
     let mut values = false;
-    let mut ends_with_time = false;
     while let Some(word) = words.next() {
-        ends_with_time = false;
+        body.ends_with_time = false;
+        let begin = words.place - word.len();
         let (first, rest) = word.split_first().unwrap_or((&0, &[]));
         match first {
             b'#' => {
@@ -143,15 +242,22 @@ fn body(words: &mut Words<'_>, codes: &HashMap<&[u8], Kind>) -> Result<(bool, Ve
                     return Err(words.fault(word, "the time goes back", "times that grow"));
                 }
                 now = Some(time);
-                ends_with_time = true;
+                body.ends_with_time = true;
                 continue;
             }
             b'$' => {
                 match word {
                     b"$comment" => drop(words.command(word)?),
                     b"$dumpvars" | b"$dumpall" | b"$end" => {}
-                    b"$dumpoff" => Gap::switch(&mut gaps, now.unwrap_or(0), false),
-                    b"$dumpon" => Gap::switch(&mut gaps, now.unwrap_or(0), true),
+                    b"$dumpoff" => {
+                        body.off.get_or_insert((begin, now.unwrap_or(0), values));
+                    }
+                    b"$dumpon" => {
+                        if let Some((_, from, _)) = body.off.take() {
+                            Gap::switch(&mut body.gaps, from, false);
+                            Gap::switch(&mut body.gaps, now.unwrap_or(0), true);
+                        }
+                    }
                     _ => {
                         return Err(words.fault(
                             word,
@@ -166,7 +272,14 @@ fn body(words: &mut Words<'_>, codes: &HashMap<&[u8], Kind>) -> Result<(bool, Ve
         }
         values = true;
         let (digits, code) = match first {
-            b'b' | b'B' | b'r' | b'R' | b's' | b'S' => (rest, words.next()),
+            b'b' | b'B' => (rest, words.next()),
+            b'r' | b'R' | b's' | b'S' => (rest, words.code_of_text(codes)),
+            _ if rest.is_empty() => {
+                let code = words.next();
+                let place = words.place - code.map_or(0, <[u8]>::len);
+                body.moved.push((begin, place - 1));
+                (word, code)
+            }
             _ => (&word[..1], Some(rest)),
         };
         let Some(code) = code else {
@@ -188,6 +301,18 @@ fn body(words: &mut Words<'_>, codes: &HashMap<&[u8], Kind>) -> Result<(bool, Ve
             }
             _ => false,
         };
+        // Nothing but white space is between the value and its code.
+        let between = begin + word.len()..words.place - code.len();
+        let between = words.bytes.get(between).unwrap_or_default();
+        let whole = fits && between.iter().all(u8::is_ascii_whitespace);
+        if !whole && !matches!(kind, Kind::Bits(_)) {
+            // Nobody looks at it.
+            if body.moved.last().is_some_and(|last| last.0 == begin) {
+                body.moved.pop();
+            }
+            body.blank.push(begin..words.place);
+            continue;
+        }
         if !fits {
             return Err(words.fault(word, format!("is no value of {kind}"), VALUES));
         }
@@ -199,7 +324,7 @@ fn body(words: &mut Words<'_>, codes: &HashMap<&[u8], Kind>) -> Result<(bool, Ve
             })?;
         }
     }
-    if !values {
+    if !body.off.map_or(values, |(.., before)| before) {
         return Err(Fault::new(
             words.file,
             0,
@@ -208,7 +333,7 @@ fn body(words: &mut Words<'_>, codes: &HashMap<&[u8], Kind>) -> Result<(bool, Ve
             "a VCD with values",
         ));
     }
-    Ok((ends_with_time, gaps))
+    Ok(body)
 }
 
 impl std::fmt::Display for Kind {
@@ -218,6 +343,7 @@ impl std::fmt::Display for Kind {
             Kind::Bits(width) => write!(f, "a signal of {width} bits"),
             Kind::Real => write!(f, "a real"),
             Kind::String => write!(f, "a string"),
+            Kind::Nothing => write!(f, "a variable that is not compared"),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The scope of the other file that stands for golden's top.
 
-use super::names::{element, listed};
+use super::names::listed;
 use super::pair::partner;
 use super::wave::Wave;
 use crate::input::Fault;
@@ -91,7 +91,7 @@ pub(super) fn find(
 fn candidates(golden: &Wave, other: &Wave, clock: usize, signals: &[usize]) -> Vec<String> {
     let wanted: HashSet<_> = signals
         .iter()
-        .map(|&index| element(relative(golden, index)))
+        .map(|&index| other.key(relative(golden, index)))
         .collect();
     let clock = other.variables[clock].signal;
     let mut counts: HashMap<String, usize> = HashMap::new();
@@ -100,13 +100,15 @@ fn candidates(golden: &Wave, other: &Wave, clock: usize, signals: &[usize]) -> V
         .iter()
         .filter(|variable| variable.signal != clock)
     {
-        let path = element(&variable.path);
+        let path = other.key(&variable.path);
         if wanted.contains(&path) {
             *counts.entry(String::new()).or_default() += 1;
         }
         for (place, _) in path.match_indices('.') {
             if wanted.contains(&path[place + 1..]) {
-                *counts.entry(path[..place].to_owned()).or_default() += 1;
+                // The scope as it is written.
+                let scope = &variable.path[..place];
+                *counts.entry(scope.to_owned()).or_default() += 1;
             }
         }
     }

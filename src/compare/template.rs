@@ -15,12 +15,17 @@ pub(super) fn skeleton(golden: &Wave, other: &Wave, clock: usize, pairing: &Pair
     );
     text +=
         "# Fill in a name and take the # away. The end of a path will do if it is the only one.\n";
-    text += "# What has no partner on purpose goes into ignore.\n\nignore = []\n\n[signals]\n";
+    text += "# What has no partner on purpose goes into ignore, a port out into leave.\n";
+    text += "\nignore = []\nleave = []\n\n[signals]\n";
     // Writing to a string does not fail.
     for &index in &pairing.without_partner {
         let variable = &golden.variables[index];
         let name = Value::from(variable.path.as_str());
-        let _ = writeln!(text, "#{name} = \"\" # {}", bits(variable.width));
+        let port = match pairing.ports.out.contains(&index) {
+            true => ", port out",
+            false => "",
+        };
+        let _ = writeln!(text, "#{name} = \"\" # {}{port}", bits(variable.width));
     }
     let free = pairing.free(other, clock);
     if !free.is_empty() {

@@ -39,9 +39,7 @@ impl Ticks {
     /// The ticks by the clock of this variable, which must be loaded.
     pub fn of(wave: &Wave, clock: usize) -> Result<Self, Fault> {
         let changes = wave.changes(clock, 0, 1)?;
-        let level =
-            |&(at, value): &(u32, Value)| (at, value.is_known().then(|| value == Value::HIGH));
-        let levels: Vec<_> = changes.iter().map(level).collect();
+        let levels = levels(&changes);
         let fault = |problem: String| {
             let allowed = "a clock that is 0 or 1 at all times and changes";
             Fault::new(&wave.file, 0, &wave.variables[clock].path, problem, allowed)
@@ -203,19 +201,62 @@ fn first(wave: &Wave, levels: &[(u32, Option<bool>)]) -> u64 {
     }
 }
 
-/// The one variable of one bit that is called `name`, by its path or the end of its path.
+/// The variable of one bit that is called `name`, by its path or the end of its path. Clocks with the
+/// same edges are one.
 pub(super) fn clock(
-    wave: &Wave,
+    wave: &mut Wave,
     argument: &str,
     name: &str,
     others: Option<&str>,
 ) -> Result<usize, Fault> {
+    let found = candidates(wave, argument, name, others)?;
+    let [first, more @ ..] = &found[..] else {
+        return Ok(0);
+    };
+    if !more.is_empty() {
+        wave.load(found.iter().copied())?;
+        let edges = |wave: &Wave, clock| -> Result<_, Fault> {
+            let changes = wave.changes(clock, 0, 1)?;
+            Ok(Ticks::by(&levels(&changes), &wave.times, &wave.gaps).ok())
+        };
+        let ticks = edges(wave, *first)?;
+        for &other in more {
+            if ticks.is_none() || edges(wave, other)? != ticks {
+                let paths = found.iter().map(|&index| &wave.variables[index].path);
+                let paths: Vec<_> = paths.collect();
+                let problem = format!(
+                    "{} signals of different edges are called {name}",
+                    found.len()
+                );
+                let allowed = format!("one of them by its path: {}", listed(&paths));
+                return Err(Fault::new(&wave.file, 0, argument, problem, allowed));
+            }
+        }
+        for &other in more {
+            wave.join(*first, other);
+        }
+    }
+    Ok(*first)
+}
+
+fn levels(changes: &[(u32, Value)]) -> Vec<(u32, Option<bool>)> {
+    let level = |&(at, value): &(u32, Value)| (at, value.is_known().then(|| value == Value::HIGH));
+    changes.iter().map(level).collect()
+}
+
+/// The variables of one bit that may be meant, at least one; those of the same signal are one.
+fn candidates(
+    wave: &Wave,
+    argument: &str,
+    name: &str,
+    others: Option<&str>,
+) -> Result<Vec<usize>, Fault> {
     let fault =
         |problem: String, allowed: String| Fault::new(&wave.file, 0, argument, problem, allowed);
     let bit = |index: &usize| wave.variables[*index].width == 1;
     if let Some(exact) = wave.find(name) {
         return match bit(&exact) {
-            true => Ok(exact),
+            true => Ok(vec![exact]),
             false => Err(fault(
                 format!("{name} has {} bits", wave.variables[exact].width),
                 "a signal of 1 bit".into(),
@@ -227,14 +268,18 @@ pub(super) fn clock(
     for index in (0..wave.variables.len()).filter(bit) {
         let variable = &wave.variables[index];
         let alias = |&other: &usize| wave.variables[other].signal == variable.signal;
-        if variable.path.ends_with(&ending) && !found.iter().any(alias) {
+        let ends = match wave.folds() {
+            true => ends_in_any_case(&variable.path, &ending),
+            false => variable.path.ends_with(&ending),
+        };
+        if ends && !found.iter().any(alias) {
             found.push(index);
         }
     }
     let path = |&index: &usize| wave.variables[index].path.as_str();
-    match found[..] {
-        [one] => Ok(one),
-        [] => {
+    match found.is_empty() {
+        false => Ok(found),
+        true => {
             let bits: Vec<_> = (0..wave.variables.len()).filter(bit).collect();
             let bits = listed(&bits.iter().map(path).collect::<Vec<_>>());
             let problem = match others {
@@ -245,14 +290,13 @@ pub(super) fn clock(
             };
             Err(fault(problem, format!("a signal of 1 bit: {bits}")))
         }
-        _ => {
-            let found: Vec<_> = found.iter().map(path).collect();
-            Err(fault(
-                format!("{} signals are called {name}", found.len()),
-                format!("one of them by its path: {}", listed(&found)),
-            ))
-        }
     }
+}
+
+fn ends_in_any_case(path: &str, ending: &str) -> bool {
+    let start = path.len().checked_sub(ending.len());
+    let end = start.and_then(|start| path.get(start..));
+    end.is_some_and(|end| end.eq_ignore_ascii_case(ending))
 }
 
 /// The part of `window` that both files have, in ticks of the golden run.

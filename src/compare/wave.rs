@@ -6,7 +6,7 @@ use super::sections;
 use super::times;
 use super::value::Value;
 use crate::input::{Fault, read_bytes};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::io::Cursor;
 use std::path::Path;
 use wellen::simple::Waveform;
@@ -27,8 +27,6 @@ pub(super) struct Variable {
     /// An input: an FST tells. In a VCD of ours those of the outermost scope stand before its
     /// registers.
     pub input: bool,
-    /// An output of the outermost scope: an FST tells.
-    pub output: bool,
     /// Variables of the same signal are aliases.
     pub signal: SignalRef,
     /// Numbers of its first and last bit, where it has a range.
@@ -64,9 +62,13 @@ pub(super) struct Wave {
     pub ours: bool,
     /// When its dump was switched off, in order.
     pub gaps: Vec<Gap>,
+    /// Ports out of its outermost circuit, where the file tells them.
+    pub ports_out: Option<Vec<usize>>,
     pub(super) unit: Option<(u32, &'static str)>,
     by_path: HashMap<String, usize>,
     by_element: HashMap<String, Option<usize>>,
+    /// By the path in lower case, where case is ignored; none where there are two.
+    by_folded: Option<HashMap<String, Option<usize>>>,
     waveform: Waveform,
 }
 
@@ -86,9 +88,7 @@ impl Wave {
             None => return Err(fault("empty", formats)),
             Some(b'$') => {
                 scanned = scan::check(file, &bytes)?;
-                for again in &scanned.again {
-                    bytes.get_mut(again.clone()).unwrap_or_default().fill(b' ');
-                }
+                scanned.edits.apply(&mut bytes);
                 if bytes.last() != Some(&b'\n') {
                     // The reader leaves out a last line without an end.
                     bytes.push(b'\n');
@@ -100,9 +100,8 @@ impl Wave {
                     return Err(fault("neither a VCD nor an FST", formats));
                 }
                 scanned = Scanned {
-                    ours: false,
                     gaps: sections::check(file, &bytes)?,
-                    again: Vec::new(),
+                    ..Scanned::default()
                 };
                 "FST"
             }
@@ -129,17 +128,20 @@ impl Wave {
         let mut wave = Wave {
             file: file.to_owned(),
             variables: Vec::new(),
-            without_bits: 0,
+            without_bits: scanned.without_bits,
             times: waveform.time_table().to_vec(),
             ours: scanned.ours || hierarchy.version().trim().starts_with("motion-rtl "),
             gaps: scanned.gaps,
+            ports_out: None,
             unit: hierarchy.timescale().and_then(times::unit),
             by_path: HashMap::new(),
             by_element: HashMap::new(),
+            by_folded: None,
             waveform,
         };
         let hierarchy = wave.waveform.hierarchy();
         let mut registers_above = false;
+        let mut outputs = Vec::new();
         for var in hierarchy.all_vars() {
             let var = &hierarchy[var];
             let bits = match var.var_type() {
@@ -172,6 +174,9 @@ impl Wave {
                 VarDirection::Unknown | VarDirection::Implicit => above && !registers_above,
                 direction => direction == VarDirection::Input,
             };
+            if var.direction() == VarDirection::Output {
+                outputs.push(index);
+            }
             wave.by_path.insert(path.clone(), index);
             let element = wave.by_element.entry(names::element(&path));
             element.and_modify(|one| *one = None).or_insert(Some(index));
@@ -180,7 +185,6 @@ impl Wave {
                 width,
                 register,
                 input,
-                output: above && var.direction() == VarDirection::Output,
                 signal,
                 range: var.index().map(|index| (index.msb(), index.lsb())),
             });
@@ -194,18 +198,90 @@ impl Wave {
                 "a waveform with signals",
             ));
         }
+        wave.ports_out = match scanned.ports_out {
+            Some(paths) => Some(wave.named_ports(&paths)?),
+            None => wave.outermost(outputs),
+        };
         Ok(wave)
+    }
+
+    /// The variables that a comment of the file names.
+    fn named_ports(&self, paths: &[String]) -> Result<Vec<usize>, Fault> {
+        let find = |path: &String| {
+            self.find(path).ok_or_else(|| {
+                let problem = format!("the file names {path} and has no such signal");
+                let allowed = "a complete file: this one lacks a signal";
+                Fault::new(&self.file, 0, "ports out", problem, allowed)
+            })
+        };
+        paths.iter().map(find).collect()
+    }
+
+    /// Those outputs that are in no scope around which another one has some; none where there is no
+    /// output. This crate gives the direction to no others.
+    fn outermost(&self, outputs: Vec<usize>) -> Option<Vec<usize>> {
+        let scope = |index: usize| {
+            let path = &self.variables[index].path;
+            path.rsplit_once('.').map_or("", |(scope, _)| scope)
+        };
+        let scopes: HashSet<_> = outputs.iter().map(|&index| scope(index)).collect();
+        let is_outermost = |&index: &usize| {
+            let own = scope(index);
+            let mut around = own.match_indices('.').map(|(dot, _)| &own[..dot]);
+            self.ours || !around.any(|scope| scopes.contains(scope))
+        };
+        let ports: Vec<usize> = outputs.iter().copied().filter(is_outermost).collect();
+        (!ports.is_empty()).then_some(ports)
     }
 
     /// The variable of this path; the words of a memory by either kind of name.
     pub fn find(&self, path: &str) -> Option<usize> {
         let exact = self.by_path.get(path).copied();
-        exact.or_else(|| {
-            self.by_element
-                .get(&names::element(path))
-                .copied()
-                .flatten()
-        })
+        let element = || {
+            let by_element = &self.by_element;
+            by_element.get(&names::element(path)).copied().flatten()
+        };
+        let folded = || {
+            let by_folded = self.by_folded.as_ref()?;
+            by_folded.get(&self.key(path)).copied().flatten()
+        };
+        exact.or_else(element).or_else(folded)
+    }
+
+    /// Finds signals by names in another case too.
+    pub fn fold_case(&mut self) {
+        self.by_folded = Some(HashMap::new());
+        let mut by_folded: HashMap<_, Option<usize>> = HashMap::new();
+        for (index, variable) in self.variables.iter().enumerate() {
+            let entry = by_folded.entry(self.key(&variable.path));
+            entry.and_modify(|one| *one = None).or_insert(Some(index));
+        }
+        self.by_folded = Some(by_folded);
+    }
+
+    /// True if names in another case are found.
+    pub fn folds(&self) -> bool {
+        self.by_folded.is_some()
+    }
+
+    /// A path as it is looked up: words of memories as elements, and all in lower case where case
+    /// is ignored.
+    pub fn key(&self, path: &str) -> String {
+        let element = names::element(path);
+        match self.folds() {
+            true => element.to_ascii_lowercase(),
+            false => element,
+        }
+    }
+
+    /// Takes the second variable for an alias of the first.
+    pub fn join(&mut self, first: usize, second: usize) {
+        let (kept, gone) = (self.variables[first].signal, self.variables[second].signal);
+        for variable in &mut self.variables {
+            if variable.signal == gone {
+                variable.signal = kept;
+            }
+        }
     }
 
     /// Whether there is something below this scope, which may be a memory.

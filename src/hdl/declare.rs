@@ -12,30 +12,46 @@ use std::sync::Arc;
 #[derive(Debug, Clone, Default)]
 pub struct Path {
     scopes: Vec<String>,
-    /// For every struct entered: whether it added a scope, and the role around it.
-    entered: Vec<(bool, Option<Role>)>,
+    /// For every struct entered.
+    entered: Vec<Around>,
     role: Option<Role>,
+    /// Scopes up to and with that of the circuit it is in.
+    circuit: usize,
     element: Option<usize>,
+}
+
+/// State of a walk before a struct was entered.
+#[derive(Debug, Clone)]
+struct Around {
+    /// The struct added a scope.
+    scoped: bool,
+    role: Option<Role>,
+    circuit: usize,
 }
 
 impl Path {
     /// A struct begins.
     pub fn enter(&mut self, field: &'static Field) {
-        self.entered.push((!field.name.is_empty(), self.role));
+        self.entered.push(Around {
+            scoped: !field.name.is_empty(),
+            role: self.role,
+            circuit: self.circuit,
+        });
         if !field.name.is_empty() {
             let name = self.name(field);
             self.scopes.push(name);
         }
         if field.role.is_some() {
             self.role = field.role;
+            self.circuit = self.scopes.len();
         }
     }
 
     /// The struct entered last ends.
     pub fn leave(&mut self) {
-        if let Some((scoped, role)) = self.entered.pop() {
-            self.role = role;
-            if scoped {
+        if let Some(around) = self.entered.pop() {
+            (self.role, self.circuit) = (around.role, around.circuit);
+            if around.scoped {
                 self.scopes.pop();
             }
         }
@@ -66,7 +82,7 @@ impl Path {
 
     /// The part of the outermost circuit that it is among.
     fn outermost_role(&self) -> Role {
-        let around = self.entered.iter().find_map(|(_, role)| *role);
+        let around = self.entered.iter().find_map(|around| around.role);
         around.unwrap_or(self.role())
     }
 }
@@ -88,9 +104,17 @@ pub struct Declaration {
     pub field: &'static Field,
     /// The part of the whole circuit that it is among.
     pub(crate) part: Role,
+    /// How many of the scopes there are up to that of its own circuit; the others are bundles and
+    /// memories.
+    pub(crate) circuit: usize,
 }
 
 impl Declaration {
+    /// True if its own circuit has it as a port out.
+    pub(crate) fn is_port_out(&self) -> bool {
+        self.role != Role::Input && self.field.public
+    }
+
     /// Scopes and name joined by dots.
     pub fn path(&self) -> String {
         let mut path = self.scopes.join(".");
@@ -233,6 +257,7 @@ impl Outline for Declarations {
             power_on: 0,
             field,
             part: self.path.outermost_role(),
+            circuit: self.path.circuit,
         });
     }
     fn memory(&mut self, field: &'static Field, label: &'static Field, words: usize, width: usize) {
@@ -248,6 +273,7 @@ impl Outline for Declarations {
             power_on: 0,
             field: label,
             part: self.path.outermost_role(),
+            circuit: self.path.circuit,
         };
         self.leaves.extend((0..words).map(|index| Declaration {
             name: label.element(index).into_owned(),

@@ -17,7 +17,8 @@ use std::io::{self, Seek, Write};
 pub(super) use encoder::Encoder;
 
 /// Writes every signal of a run, and `clk`, in the format FST of GTKWave: the same signals, names
-/// and values at the same times as [`Vcd`](super::Vcd) in a fraction of the bytes.
+/// and values at the same times as [`Vcd`](super::Vcd) in a fraction of the bytes. Ports in and the
+/// ports out of the outermost circuit have their directions.
 ///
 /// What changes is gathered in sections; a thread compresses and writes them. It holds three
 /// sections of about 3 MB, however long the run is. Call [`finish`](Fst::finish) after the run;

@@ -71,6 +71,8 @@ pub(crate) struct Layout {
     pub selected: Vec<bool>,
     /// The circuit's scope with the selected leaves in it.
     pub top: Scope,
+    /// The selected leaves that are ports out of the outermost circuit of which some are selected.
+    pub ports_out: Vec<usize>,
 }
 
 /// A scope with what is selected in it.
@@ -102,10 +104,12 @@ impl Layout {
         if only.is_some() {
             top = Scope::tree(name, &leaves, |index| selected[index]);
         }
+        let ports_out = ports_out(&leaves, &selected);
         Ok(Layout {
             leaves,
             selected,
             top,
+            ports_out,
         })
     }
 }
@@ -164,6 +168,20 @@ impl Scope {
         };
         self.scopes[place].descend(rest)
     }
+}
+
+/// The ports out that a dump is compared by. Those of a circuit inside another one that has some
+/// are nets of that one.
+fn ports_out(leaves: &[Declaration], selected: &[bool]) -> Vec<usize> {
+    let is_port = |&index: &usize| selected[index] && leaves[index].is_port_out();
+    let ports: Vec<usize> = (0..leaves.len()).filter(is_port).collect();
+    let circuit = |index: usize| &leaves[index].scopes[..leaves[index].circuit];
+    let circuits: HashSet<_> = ports.iter().map(|&index| circuit(index)).collect();
+    let is_outermost = |&index: &usize| {
+        let own = circuit(index);
+        !(0..own.len()).any(|around| circuits.contains(&own[..around]))
+    };
+    ports.into_iter().filter(is_outermost).collect()
 }
 
 /// The name of the string that shows a state by name, beside the state itself.
@@ -247,4 +265,61 @@ fn check(top: &str, leaves: &[Declaration]) -> Result<(), LayoutError> {
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::registry::{CATALOGUE, Request, find};
+
+    /// What a dump names is what Verilog has as outputs.
+    #[test]
+    fn ports_out_are_those_of_the_outermost_circuit() {
+        let mut bundles = 0;
+        for entry in CATALOGUE {
+            let request = Request {
+                width: Some(3),
+                ..Request::default()
+            };
+            let circuit = entry.requested(&request).unwrap_or_else(|_| entry.full());
+            let model = circuit.model().unwrap();
+            let layout = Layout::of(&model, None).unwrap();
+            assert_eq!(layout.ports_out, model.ports_out(), "{}", entry.name);
+            assert!(!layout.ports_out.is_empty(), "{}", entry.name);
+            let deep = |leaf: &&usize| layout.leaves[**leaf].scopes.len() > 1;
+            bundles += layout.ports_out.iter().filter(deep).count();
+        }
+        assert!(bundles > 0, "no circuit has a bundle of ports out");
+    }
+
+    /// Of a part that stands alone in a dump they are that part's.
+    #[test]
+    fn of_a_selection_the_outermost_circuit_counts() {
+        let entry = find("unit_law").unwrap();
+        let model = entry.full().model().unwrap();
+        let ports = |only: &[&str]| -> Vec<String> {
+            let only: Vec<String> = only.iter().map(|&path| path.to_owned()).collect();
+            let layout = Layout::of(&model, Some(&only)).unwrap();
+            let leaves = layout
+                .ports_out
+                .iter()
+                .map(|&leaf| layout.leaves[leaf].path());
+            leaves.collect()
+        };
+        assert_eq!(ports(&["unit_law"]), ["unit_law.step"]);
+        assert_eq!(
+            ports(&["unit_law.step", "unit_law.counter"]),
+            ["unit_law.step"]
+        );
+        let inner = ports(&["unit_law.counter", "unit_law.sync"]);
+        assert!(
+            inner.contains(&"unit_law.counter.enable".to_owned()),
+            "{inner:?}"
+        );
+        assert!(
+            inner.contains(&"unit_law.sync.step".to_owned()),
+            "{inner:?}"
+        );
+        assert_eq!(ports(&["unit_law.period", "unit_law.held_period"]), [""; 0]);
+    }
 }

@@ -38,6 +38,9 @@ use crate::hdl::{Described, LeafView as View, Model, RunError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+/// Begins the comment of a VCD that names the ports out; their paths follow.
+pub(crate) const PORTS_OUT: &str = "ports out:";
+
 /// Ticks that the window of a replay shows at first.
 const FOCUS: u64 = 40;
 

@@ -18,8 +18,8 @@ pub(super) use text::eight_digits;
 /// At tick n everything is sampled at time n·P with `clk` high; `clk` falls at n·P + P/2. A
 /// register therefore shows at n + 1 what was decided at n. Registers are `reg`, everything else
 /// `wire`; a signal with named states has beside it a string `<signal>_name`. The words of a
-/// memory stand in a scope of the memory's name. The dump holds no date: the same run gives the
-/// same bytes.
+/// memory stand in a scope of the memory's name. A comment names the ports out. The dump holds no
+/// date: the same run gives the same bytes.
 ///
 /// It gathers its own large blocks, so the writer needs no buffer. Call
 /// [`finish`](Vcd::finish) after the run; without it the end of the dump is missing. With a second

@@ -3,14 +3,22 @@
 use super::support::{Bench, whole};
 use expect_test::{Expect, expect};
 
-/// A dump as this crate writes it: 10 ns a tick, the values of a tick in a row.
+/// A dump as this crate writes it: 10 ns a tick, the values of a tick in a row. Behind a port out
+/// stands `out`.
 pub fn dump(scopes: &[&str], variables: &[&str], rows: &[&[&str]]) -> String {
     let mut text = "$timescale 1 ns $end\n".to_owned();
+    let ports = variables.iter().filter_map(|it| it.strip_suffix(" out"));
+    let name = |port: &str| format!(" {}.{}", scopes.join("."), port.split(' ').nth(2).unwrap());
+    let ports: String = ports.map(name).collect();
+    if !ports.is_empty() {
+        text += &format!("$comment ports out:{ports} $end\n");
+    }
     for scope in scopes {
         text += &format!("$scope module {scope} $end\n");
     }
     text += "$var wire 1 ! clk $end\n";
     for (place, variable) in variables.iter().enumerate() {
+        let variable = variable.strip_suffix(" out").unwrap_or(variable);
         let (declared, name) = variable.split_once(' ').unwrap();
         let (width, name) = name.split_once(' ').unwrap();
         text += &format!("$var {declared} {width} v{place} {name} $end\n");
@@ -27,7 +35,7 @@ pub fn dump(scopes: &[&str], variables: &[&str], rows: &[&[&str]]) -> String {
     text + &format!("#{}\n", 10 * rows.len())
 }
 
-const VARIABLES: [&str; 2] = ["reg 4 count [3:0]", "wire 1 last"];
+const VARIABLES: [&str; 2] = ["reg 4 count [3:0]", "wire 1 last out"];
 const ROWS: [&[&str]; 4] = [&["0", "0"], &["1", "0"], &["10", "1"], &["0", "0"]];
 
 fn golden() -> String {
@@ -63,10 +71,10 @@ fn a_waveform_may_come_through_a_pipe() {
 #[test]
 fn a_map_may_come_through_a_pipe() {
     let bench = bench(&golden());
-    let map = "ignore = [\"counter.last\"]\n";
+    let map = "ignore = [\"counter.count\"]\n";
     bench.write("map.toml", map);
     let files = bench.succeed(&["compare", "golden.vcd", "other.vcd", "--map", "map.toml"]);
-    assert!(files.contains("ignored: 1\n  counter.last\n"), "{files}");
+    assert!(files.contains("ignored: 1\n  counter.count\n"), "{files}");
     let arguments = ["compare", "golden.vcd", "other.vcd", "--map", "/dev/stdin"];
     let output = bench.command(&arguments).write_stdin(map).output().unwrap();
     let text = |bytes| String::from_utf8(bytes).unwrap();
@@ -88,7 +96,7 @@ fn equal_waves_are_equal() {
         ],
     );
     let text = expect![[r#"
-        other is 1 tick longer; what both have is equal: 4 ticks (0 to 3), 2 signals, 8 values
+        other is 1 tick longer; what both have is equal: 4 ticks (0 to 3), 2 signals, 8 values; in golden 2 moved, 0 never changed
         golden golden.vcd: clock counter.clk, 4 ticks
         other  other.vcd: clock tb.dut.clk, scope tb.dut, 5 ticks, 1 only here
 
@@ -96,7 +104,7 @@ fn equal_waves_are_equal() {
     "#]];
     shows(&bench(&other), &["--any-length"], 0, &text);
     let text = expect![[r#"
-        equal: 4 ticks (0 to 3), 2 signals, 8 values
+        equal: 4 ticks (0 to 3), 2 signals, 8 values; in golden 2 moved, 0 never changed
         golden golden.vcd: clock counter.clk, 4 ticks
         other  other.vcd: clock tb.dut.clk, scope tb.dut, 5 ticks
 
@@ -111,7 +119,7 @@ fn the_first_difference_is_shown_with_what_surrounds_it() {
     rows[2] = &["11", "x"];
     let other = dump(&["tb", "dut"], &VARIABLES, &rows);
     let text = expect![[r#"
-        different: 2 of 2 signals, in 4 ticks (0 to 3), 8 values
+        different: 2 of 2 signals, in 4 ticks (0 to 3), 8 values; in golden 2 moved, 0 never changed
         golden golden.vcd: clock counter.clk, 4 ticks
         other  other.vcd: clock tb.dut.clk, scope tb.dut, 4 ticks
 
@@ -151,17 +159,17 @@ fn ticks_are_skipped_and_selected() {
         &["--skip", "2"],
         0,
         &expect![[r#"
-        equal: 4 ticks (0 to 3), 2 signals, 8 values
-        golden golden.vcd: clock counter.clk, 4 ticks
-        other  other.vcd: clock tb.clk, scope tb, 6 ticks, skip 2
-    "#]],
+            equal: 4 ticks (0 to 3), 2 signals, 8 values; in golden 2 moved, 0 never changed
+            golden golden.vcd: clock counter.clk, 4 ticks
+            other  other.vcd: clock tb.clk, scope tb, 6 ticks, skip 2
+        "#]],
     );
     shows(
         &bench,
         &["--skip", "2", "--from", "1", "--ticks", "2"],
         0,
         &expect![[r#"
-            equal: 2 ticks (1 to 2), 2 signals, 4 values
+            equal: 2 ticks (1 to 2), 2 signals, 4 values; in golden 2 moved, 0 never changed
             golden golden.vcd: clock counter.clk, 4 ticks
             other  other.vcd: clock tb.clk, scope tb, 6 ticks, skip 2
         "#]],
@@ -173,10 +181,10 @@ fn ticks_are_skipped_and_selected() {
         &["--skip", "-1"],
         0,
         &expect![[r#"
-        equal: 3 ticks (1 to 3), 2 signals, 6 values
-        golden golden.vcd: clock counter.clk, 4 ticks, 1 only here
-        other  other.vcd: clock tb.clk, scope tb, 3 ticks, skip -1
-    "#]],
+            equal: 3 ticks (1 to 3), 2 signals, 6 values; in golden 2 moved, 0 never changed
+            golden golden.vcd: clock counter.clk, 4 ticks, 1 only here
+            other  other.vcd: clock tb.clk, scope tb, 3 ticks, skip -1
+        "#]],
     );
 }
 
@@ -186,7 +194,7 @@ fn a_map_pairs_what_has_other_names() {
         "reg 1 step",
         "reg 4 period [3:0]",
         "reg 2 x [1:0]",
-        "reg 3 count [2:0]",
+        "reg 3 count [2:0] out",
         "wire 1 debug",
     ];
     let rows: [&[&str]; 4] = [
@@ -225,15 +233,15 @@ ignore = ["top.debug"]
         &["--map", "names.toml"],
         0,
         &expect![[r#"
-        equal: 4 ticks (0 to 3), 4 signals, 15 values
-        golden golden.vcd: clock top.clk, 4 ticks
-        other  other.vcd: clock tb.dut.clk, scope tb.dut, 4 ticks
+            equal: 4 ticks (0 to 3), 4 signals, 15 values; in golden 4 moved, 0 never changed
+            golden golden.vcd: clock top.clk, 4 ticks
+            other  other.vcd: clock tb.dut.clk, scope tb.dut, 4 ticks
 
-        ignored: 1
-          top.debug
+            ignored: 1
+              top.debug
 
-        signals not compared: 1 ignored
-    "#]],
+            signals not compared: 1 ignored
+        "#]],
     );
     bench.write(
         "scopes.toml",
@@ -253,25 +261,25 @@ ignore = ["top.debug"]
         &["--map", "scopes.toml"],
         0,
         &expect![[r#"
-        equal: 4 ticks (0 to 3), 1 signal, 4 values
-        golden golden.vcd: clock top.clk, 4 ticks
-        other  other.vcd: clock tb.dut.clk, 4 ticks
+            equal: 4 ticks (0 to 3), 1 signal, 4 values; in golden 1 moved, 0 never changed
+            golden golden.vcd: clock top.clk, 4 ticks
+            other  other.vcd: clock tb.dut.clk, 4 ticks
 
-        golden signals without partner: 4
-          top.step
-          top.period
-          top.x
-          top.debug
+            golden signals without partner: 4
+              top.step
+              top.period
+              top.x
+              top.debug
 
-        signals not compared: 4 without partner in golden, 3 without partner in other
-    "#]],
+            signals not compared: 4 without partner in golden, 3 without partner in other
+        "#]],
     );
     shows(
         &bench,
         &["--map", "scopes.toml", "--strict", "--ticks", "1"],
         1,
         &expect![[r#"
-            equal: 1 tick (0 to 0), 1 signal, 1 value
+            equal: 1 tick (0 to 0), 1 signal, 1 value; in golden 0 moved, 1 never changed
             golden golden.vcd: clock top.clk, 4 ticks
             other  other.vcd: clock tb.dut.clk, 4 ticks
 
@@ -292,7 +300,7 @@ fn widths_unknowns_and_strings_are_counted() {
     let variables = [
         "reg 4 count [3:0]",
         "reg 2 a [1:0]",
-        "reg 1 b",
+        "reg 1 b out",
         "string 1 b_name",
     ];
     let text = dump(&["top"], &variables, &[&["x", "0", "z"], &["1", "1", "1"]]);
@@ -308,17 +316,17 @@ fn widths_unknowns_and_strings_are_counted() {
         &[],
         1,
         &expect![[r#"
-        different: 0 of 2 signals, in 2 ticks (0 to 1), 2 values
-        golden golden.vcd: clock top.clk, 2 ticks
-        other  other.vcd: clock top.clk, scope top, 2 ticks
+            different: 0 of 2 signals, in 2 ticks (0 to 1), 2 values; in golden 0 moved, 2 never changed
+            golden golden.vcd: clock top.clk, 2 ticks
+            other  other.vcd: clock top.clk, scope top, 2 ticks
 
-        different width in bits, not compared: 1
-          top.a: 2 | top.a: 3
+            different width in bits, not compared: 1
+              top.a: 2 | top.a: 3
 
-        signals not compared: 1 of different width, 1 without bits in golden
-        values not compared: 2 unknown in golden
-        error: the files differ
-    "#]],
+            signals not compared: 1 of different width, 1 without bits in golden
+            values not compared: 2 unknown in golden
+            error: the files differ
+        "#]],
     );
     bench.write("map.toml", "ignore = [\"top.a\"]\n");
     shows(
@@ -326,16 +334,16 @@ fn widths_unknowns_and_strings_are_counted() {
         &["--map", "map.toml"],
         0,
         &expect![[r#"
-        equal: 2 ticks (0 to 1), 2 signals, 2 values
-        golden golden.vcd: clock top.clk, 2 ticks
-        other  other.vcd: clock top.clk, scope top, 2 ticks
+            equal: 2 ticks (0 to 1), 2 signals, 2 values; in golden 0 moved, 2 never changed
+            golden golden.vcd: clock top.clk, 2 ticks
+            other  other.vcd: clock top.clk, scope top, 2 ticks
 
-        ignored: 1
-          top.a
+            ignored: 1
+              top.a
 
-        signals not compared: 1 without partner in other, 1 ignored, 1 without bits in golden
-        values not compared: 2 unknown in golden
-    "#]],
+            signals not compared: 1 without partner in other, 1 ignored, 1 without bits in golden
+            values not compared: 2 unknown in golden
+        "#]],
     );
 }
 
@@ -345,7 +353,7 @@ fn a_pair_without_a_value_to_compare_is_named() {
         "golden.vcd",
         dump(
             &["top"],
-            &["reg 1 a", "reg 1 b", "reg 1 c"],
+            &["reg 1 a", "reg 1 b", "reg 1 c out"],
             &[&["x", "0", "1"], &["z", "1", "1"]],
         ),
     );
@@ -362,7 +370,7 @@ fn a_pair_without_a_value_to_compare_is_named() {
         "[signals]\n\"top.b\" = { name = \"top.b\", delay = 99 }\n",
     );
     let text = expect![[r#"
-        equal: 2 ticks (0 to 1), 1 signal, 2 values
+        equal: 2 ticks (0 to 1), 1 signal, 2 values; in golden 0 moved, 1 never changed
         golden golden.vcd: clock top.clk, 2 ticks
         other  other.vcd: clock top.clk, scope top, 2 ticks
 
@@ -375,7 +383,7 @@ fn a_pair_without_a_value_to_compare_is_named() {
     "#]];
     shows(&bench, &["--map", "map.toml"], 0, &text);
     let text = expect![[r#"
-        equal: 2 ticks (0 to 1), 1 signal, 2 values
+        equal: 2 ticks (0 to 1), 1 signal, 2 values; in golden 0 moved, 1 never changed
         golden golden.vcd: clock top.clk, 2 ticks
         other  other.vcd: clock top.clk, scope top, 2 ticks
 
@@ -434,7 +442,7 @@ fn nothing_to_compare_is_not_equal() {
 
 #[test]
 fn words_of_memories_are_elements() {
-    let words = ["wire 4 word0 [3:0]", "wire 4 word1 [3:0]"];
+    let words = ["wire 4 word0 [3:0] out", "wire 4 word1 [3:0]"];
     let rows: [&[&str]; 2] = [&["1", "10"], &["11", "10"]];
     let bench = Bench::with("golden.vcd", dump(&["top", "mem"], &words, &rows));
     for words in [
@@ -447,7 +455,7 @@ fn words_of_memories_are_elements() {
         assert_eq!(report["scope"], "tb.dut");
     }
     // Single bits, which a reader may take for bits of one vector.
-    let words = ["wire 1 word0", "wire 1 word1"];
+    let words = ["wire 1 word0", "wire 1 word1 out"];
     let rows: [&[&str]; 2] = [&["1", "0"], &["1", "1"]];
     bench.write("golden.vcd", dump(&["top", "mem"], &words, &rows));
     bench.write(

@@ -4,7 +4,7 @@ use super::compare::dump;
 use super::support::{Bench, whole};
 use expect_test::{Expect, expect};
 
-const GOLDEN: [&str; 3] = ["wire 1 go", "reg 4 count [3:0]", "wire 1 last"];
+const GOLDEN: [&str; 3] = ["wire 1 go", "reg 4 count [3:0]", "wire 1 last out"];
 const OTHER: [&str; 4] = [
     "wire 1 run_n",
     "reg 8 cnt_q [7:0]",
@@ -45,7 +45,7 @@ fn one_map_serves_two_simulators() {
 fn ends_are_whole_components_and_only_one_path_has_them() {
     let two = ["wire 4 u.count [3:0]", "wire 4 v.u.count [3:0]"];
     let two = dump(&["tb"], &two, &[&["1", "1"], &["10", "10"]]);
-    let golden = dump(&["top"], &["reg 4 count [3:0]"], &[&["1"], &["10"]]);
+    let golden = dump(&["top"], &["reg 4 count [3:0] out"], &[&["1"], &["10"]]);
     let refused = |map: &str, more: &[&str], text: &Expect| {
         let bench = Bench::with("g.vcd", &golden);
         bench.write("o.vcd", &two);
@@ -93,7 +93,7 @@ fn ends_are_whole_components_and_only_one_path_has_them() {
 fn every_other_width_of_a_map_is_a_difference() {
     let map = "[signals]\n\"top.go\" = \"dut.cnt_q[7:6]\"\n\"top.count\" = \"dut.cnt_q\"\n\"top.last\" = \"done\"\n";
     let text = expect![[r#"
-        different: 0 of 1 signal, in 2 ticks (0 to 1), 2 values
+        different: 0 of 1 signal, in 2 ticks (0 to 1), 2 values; in golden 1 moved, 0 never changed
         golden g.vcd: clock top.clk, 2 ticks
         other  o.vcd: clock tb.dut.clk, 2 ticks
 
@@ -116,7 +116,7 @@ fn all_lists_the_names_of_both_sides_and_a_template_has_them() {
         &["--map", "m.toml", "--all", "--allow-missing"],
         0,
         &expect![[r#"
-            ports of golden without partner: top.go; what pairs is equal: 2 ticks (0 to 1), 1 signal, 2 values
+            ports in of golden without partner: top.go; what is compared is equal: 2 ticks (0 to 1), 1 signal, 2 values; in golden 1 moved, 0 never changed
             golden g.vcd: clock top.clk, 2 ticks
             other  o.vcd: clock tb.dut.clk, 2 ticks
 
@@ -137,23 +137,24 @@ fn all_lists_the_names_of_both_sides_and_a_template_has_them() {
         &["--template"],
         0,
         &expect![[r##"
-        # Names of o.vcd that stand for those of g.vcd.
-        # Fill in a name and take the # away. The end of a path will do if it is the only one.
-        # What has no partner on purpose goes into ignore.
+            # Names of o.vcd that stand for those of g.vcd.
+            # Fill in a name and take the # away. The end of a path will do if it is the only one.
+            # What has no partner on purpose goes into ignore, a port out into leave.
 
-        ignore = []
+            ignore = []
+            leave = []
 
-        [signals]
-        #"top.go" = "" # 1 bit
-        #"top.count" = "" # 4 bits
-        #"top.last" = "" # 1 bit
+            [signals]
+            #"top.go" = "" # 1 bit
+            #"top.count" = "" # 4 bits
+            #"top.last" = "" # 1 bit, port out
 
-        # There without partner:
-        #   tb.dut.run_n # 1 bit
-        #   tb.dut.cnt_q # 8 bits
-        #   tb.dut.done # 1 bit
-        #   tb.dut.spare # 1 bit
-    "##]],
+            # There without partner:
+            #   tb.dut.run_n # 1 bit
+            #   tb.dut.cnt_q # 8 bits
+            #   tb.dut.done # 1 bit
+            #   tb.dut.spare # 1 bit
+        "##]],
     );
     // With a map it has what is left, and it is a map.
     let left = bench.succeed(&["compare", "g.vcd", "o.vcd", "--map", "m.toml", "--template"]);
@@ -161,16 +162,16 @@ fn all_lists_the_names_of_both_sides_and_a_template_has_them() {
     let filled = left
         .replace("#\"top.go\" = \"\"", "\"top.go\" = \"!run_n\"")
         .replace("#\"top.count\" = \"\"", "\"top.count\" = \"cnt_q[3:0]\"");
-    bench.write("m.toml", filled);
+    bench.write("m.toml", filled + "\"top.last\" = \"done\"\n");
     let report = bench.json(&["compare", "g.vcd", "o.vcd", "--map", "m.toml"]);
-    assert_eq!(whole(&report, "/signals"), 2);
+    assert_eq!(whole(&report, "/signals"), 3);
 }
 
 #[test]
 fn the_table_begins_where_it_is_asked_to_and_has_what_surrounds_the_mismatch() {
     let variables = [
         "wire 1 go",
-        "reg 1 state",
+        "reg 1 state out",
         "wire 1 net",
         "wire 1 a.in",
         "reg 1 a.b.count",
@@ -187,26 +188,26 @@ fn the_table_begins_where_it_is_asked_to_and_has_what_surrounds_the_mismatch() {
         &["--around", "1"],
         1,
         &expect![[r#"
-        different: 1 of 6 signals, in 7 ticks (0 to 6), 42 values
-        golden g.vcd: clock top.clk, 7 ticks
-        other  o.vcd: clock top.clk, scope top, 7 ticks
+            different: 1 of 6 signals, in 7 ticks (0 to 6), 42 values; in golden 0 moved, 6 never changed
+            golden g.vcd: clock top.clk, 7 ticks
+            other  o.vcd: clock top.clk, scope top, 7 ticks
 
-        first in tick 6, in which 1 signal differs:
-          golden  top.a.b.next  1  at 60 ns
-          other   top.a.b.next  0  at 6 ns
+            first in tick 6, in which 1 signal differs:
+              golden  top.a.b.next  1  at 60 ns
+              other   top.a.b.next  0  at 6 ns
 
-        tick           5  6
-        top.a.b.next   1  1!0
-        top.a.b.count  0  0
-        top.state      1  1
-        top.go         0  0
-        top.a.in       1  1
-        (hexadecimal, golden!other where they differ)
+            tick           5  6
+            top.a.b.next   1  1!0
+            top.a.b.count  0  0
+            top.state      1  1
+            top.go         0  0
+            top.a.in       1  1
+            (hexadecimal, golden!other where they differ)
 
-        first tick  ticks  signal
-                 6      1  top.a.b.next | top.a.b.next
-        error: the files differ
-    "#]],
+            first tick  ticks  signal
+                     6      1  top.a.b.next | top.a.b.next
+            error: the files differ
+        "#]],
     );
     let report = bench.run(&["compare", "g.vcd", "o.vcd", "--around", "9", "--json"]);
     let report = serde_json::from_str(&report.stdout).unwrap();
@@ -216,7 +217,7 @@ fn the_table_begins_where_it_is_asked_to_and_has_what_surrounds_the_mismatch() {
 /// What is a scope deeper in the other design must not be equal because of what happens to pair.
 #[test]
 fn ports_without_partner_are_named_first_and_no_equality() {
-    let golden = ["wire 4 period [3:0]", "reg 1 u.x", "reg 1 u.y"];
+    let golden = ["wire 4 period [3:0]", "reg 1 u.x out", "reg 1 u.y"];
     let rows: [&[&str]; 2] = [&["11", "0", "1"], &["11", "1", "0"]];
     let bench = Bench::with("g.vcd", dump(&["top"], &golden, &rows));
     let other = ["wire 4 period [3:0]", "reg 1 g.u.x", "reg 1 g.u.y"];
@@ -226,39 +227,39 @@ fn ports_without_partner_are_named_first_and_no_equality() {
         &[],
         1,
         &expect![[r#"
-        ports of golden without partner: top.period; what pairs is equal: 2 ticks (0 to 1), 2 signals, 4 values
-        golden g.vcd: clock top.clk, 2 ticks
-        other  o.vcd: clock tb.dut.clk, scope tb.dut.g, 2 ticks
+            ports in of golden without partner: top.period; what is compared is equal: 2 ticks (0 to 1), 2 signals, 4 values; in golden 2 moved, 0 never changed
+            golden g.vcd: clock top.clk, 2 ticks
+            other  o.vcd: clock tb.dut.clk, scope tb.dut.g, 2 ticks
 
-        golden signals without partner: 1
-          top.period
+            golden signals without partner: 1
+              top.period
 
-        signals not compared: 1 without partner in golden, 1 without partner in other
-        error: ports of golden without partner: 1; a map pairs them, --allow-missing takes the rest as equal
-    "#]],
+            signals not compared: 1 without partner in golden, 1 without partner in other
+            error: ports in of golden without partner: 1; a map pairs them, --allow-missing takes the rest as equal
+        "#]],
     );
     shows(
         &bench,
         &["--allow-missing"],
         0,
         &expect![[r#"
-        ports of golden without partner: top.period; what pairs is equal: 2 ticks (0 to 1), 2 signals, 4 values
-        golden g.vcd: clock top.clk, 2 ticks
-        other  o.vcd: clock tb.dut.clk, scope tb.dut.g, 2 ticks
+            ports in of golden without partner: top.period; what is compared is equal: 2 ticks (0 to 1), 2 signals, 4 values; in golden 2 moved, 0 never changed
+            golden g.vcd: clock top.clk, 2 ticks
+            other  o.vcd: clock tb.dut.clk, scope tb.dut.g, 2 ticks
 
-        golden signals without partner: 1
-          top.period
+            golden signals without partner: 1
+              top.period
 
-        signals not compared: 1 without partner in golden, 1 without partner in other
-    "#]],
+            signals not compared: 1 without partner in golden, 1 without partner in other
+        "#]],
     );
     let report = bench.json(&["compare", "g.vcd", "o.vcd", "--allow-missing"]);
-    assert_eq!(report["ports_without_partner"][0], "top.period");
-    // Where the port pairs, nets may stay out.
-    let arguments = ["compare", "g.vcd", "o.vcd", "--scope", "tb.dut"];
-    let report = bench.json(&arguments);
-    assert_eq!(report["ports_without_partner"], serde_json::json!([]));
-    assert_eq!(whole(&report, "/signals"), 1);
+    assert_eq!(report["ports_in_without_partner"][0], "top.period");
+    // Where the port in pairs, it is the port out that has no partner.
+    let done = bench.run(&["compare", "g.vcd", "o.vcd", "--scope", "tb.dut"]);
+    let first = "ports out of golden not compared: top.u.x; what is compared is equal: ";
+    assert!(done.stdout.starts_with(first), "{}", done.stdout);
+    assert_eq!(done.code, 1);
     // And where it is said to be another one.
     bench.write("m.toml", "ignore = [\"top.period\"]\n");
     bench.json(&["compare", "g.vcd", "o.vcd", "--map", "m.toml"]);
@@ -268,7 +269,8 @@ fn ports_without_partner_are_named_first_and_no_equality() {
 #[test]
 fn that_almost_nothing_pairs_is_said_first() {
     let names: Vec<String> = (0..30).map(|at| format!("reg 1 r{at}")).collect();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let mut names: Vec<&str> = names.iter().map(String::as_str).collect();
+    names[0] = "reg 1 r0 out";
     let row = vec!["0"; 30];
     let golden = dump(&["top"], &names, &[&row, &row]);
     for (paired, code) in [(1, 1), (2, 1), (3, 0), (30, 0)] {
@@ -283,7 +285,8 @@ fn that_almost_nothing_pairs_is_said_first() {
         );
         let done = bench.run(&["compare", "g.vcd", "o.vcd"]);
         assert_eq!(done.code, code, "{paired}: {}{}", done.stdout, done.stderr);
-        let first = format!("almost nothing pairs, {paired} of 30 signals; what pairs is equal: ");
+        let first =
+            format!("almost nothing pairs, {paired} of 30 signals; what is compared is equal: ");
         assert_eq!(
             done.stdout.starts_with(&first),
             code == 1,

@@ -7,7 +7,7 @@ use expect_test::{Expect, expect};
 const ROWS: [&[&str]; 2] = [&["0"], &["1"]];
 
 fn plain() -> String {
-    dump(&["top"], &["reg 4 count [3:0]"], &ROWS)
+    dump(&["top"], &["reg 4 count [3:0] out"], &ROWS)
 }
 
 #[track_caller]
@@ -22,7 +22,7 @@ fn refused(golden: &str, other: &str, more: &[&str], text: &Expect) {
 #[test]
 fn files_that_are_no_waves_are_refused() {
     let cut = plain();
-    let cases: [(&str, &Expect); 18] = [
+    let cases: [(&str, &Expect); 19] = [
         (
             "",
             &expect![[r#"
@@ -60,9 +60,15 @@ fn files_that_are_no_waves_are_refused() {
             "#]],
         ),
         (
-            "$var wire 0 ! a $end\n",
+            "$var wire one ! a $end\n",
             &expect![[r#"
-            error: o.vcd:1: a: has no width; allowed: 1 to 1048576 bits
+            error: o.vcd:1: a: has no width; allowed: a number of bits
+        "#]],
+        ),
+        (
+            "$var wire 1 ! a $end\n$enddefinitions $end\n#0\n$dumpoff\nx!\n$end\n",
+            &expect![[r#"
+            error: o.vcd: file: no value in it; allowed: a VCD with values
         "#]],
         ),
         (
@@ -122,8 +128,8 @@ fn files_that_are_no_waves_are_refused() {
         (
             &cut[..cut.len() - 3],
             &expect![[r#"
-            error: o.vcd:17: #: is no time; allowed: # and a whole number below 2^64
-        "#]],
+                error: o.vcd:18: #: is no time; allowed: # and a whole number below 2^64
+            "#]],
         ),
         (
             "$version motion-rtl 0.1.0 $end\n$var wire 1 ! clk $end\n$enddefinitions $end\n#0\n1!\n",
@@ -168,7 +174,7 @@ fn clocks_that_are_none_are_refused() {
         &renamed,
         &[],
         &expect![[r#"
-        error: o.vcd: --clock: no common clock: there is top.clk in the golden file and no clk here; allowed: a signal of 1 bit: top.clock
+        error: o.vcd: --other-clock: no common clock: there is top.clk in the golden file and no clk here; allowed: a signal of 1 bit: top.clock
     "#]],
     );
     refused(
@@ -203,14 +209,26 @@ fn clocks_that_are_none_are_refused() {
         error: o.vcd: top.clk: the clock is x or z at 5 ns; allowed: a clock that is 0 or 1 at all times and changes
     "#]],
     );
-    let two = dump(&["tb"], &["wire 4 count [3:0]", "wire 1 u.clk"], &ROWS);
+    let two = dump(
+        &["tb"],
+        &["wire 4 count [3:0]", "wire 1 u.clk"],
+        &[&["0", "1"], &["1", "0"]],
+    );
     let two = two.replace(" clk $end", " v.clk $end");
     refused(
         &plain,
         &two,
         &[],
         &expect![[r#"
-        error: o.vcd: --clock: 2 signals are called clk; allowed: one of them by its path: tb.v.clk, tb.u.clk
+        error: o.vcd: --other-clock: 2 signals of different edges are called clk; allowed: one of them by its path: tb.v.clk, tb.u.clk
+    "#]],
+    );
+    refused(
+        &two.replace("$scope", "$comment ports out: tb.count $end\n$scope"),
+        &plain,
+        &[],
+        &expect![[r#"
+        error: g.vcd: --clock: 2 signals of different edges are called clk; allowed: one of them by its path: tb.v.clk, tb.u.clk
     "#]],
     );
     // Named, either will do.
@@ -335,8 +353,8 @@ fn maps_that_do_not_fit_are_refused() {
         (
             "[signals\n",
             expect![[r#"
-            error: m.toml:1: [signals: unclosed table, expected `]`; allowed: ignore = ["golden name"] first, then [scopes] and [signals] with lines of "golden name" = "other name"
-        "#]],
+                error: m.toml:1: [signals: unclosed table, expected `]`; allowed: ignore = ["golden name"] and leave = ["port out"] first, then [scopes] and [signals] with lines of "golden name" = "other name"
+            "#]],
         ),
     ];
     for (map, text) in cases {

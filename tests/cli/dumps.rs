@@ -7,7 +7,7 @@ use expect_test::expect;
 use std::fs::File;
 use std::time::{Duration, Instant};
 
-const VARIABLES: [&str; 2] = ["reg 4 count [3:0]", "wire 1 last"];
+const VARIABLES: [&str; 2] = ["reg 4 count [3:0]", "wire 1 last out"];
 const ROWS: [&[&str]; 8] = [
     &["0", "0"],
     &["1", "0"],
@@ -79,7 +79,7 @@ fn marks_and_ends_of_other_programs_are_no_fault() {
     let done = bench(ours.trim_end()).run(&BOTH);
     assert_eq!(
         done.stderr,
-        "error: o.vcd:57: file: the file ends within this line; allowed: a complete VCD: this one \
+        "error: o.vcd:58: file: the file ends within this line; allowed: a complete VCD: this one \
          is cut off\n"
     );
 }
@@ -109,7 +109,7 @@ fn ticks_of_a_dump_that_is_switched_off_are_counted_and_not_compared() {
     let other = bench(switched_off(on));
     let done = other.run(&BOTH);
     expect![[r#"
-        equal: 8 ticks (0 to 7), 2 signals, 10 values
+        equal: 8 ticks (0 to 7), 2 signals, 10 values; in golden 2 moved, 0 never changed
         golden g.vcd: clock top.clk, 8 ticks
         other  o.vcd: clock top.clk, scope top, 8 ticks, 3 switched off, not compared
     "#]]
@@ -146,9 +146,9 @@ fn a_dump_that_stays_switched_off_is_shorter() {
     let cut = &text[..text.find("#55\n").unwrap()];
     let done = bench(cut).run(&BOTH);
     expect![[r#"
-        golden is 6 ticks longer; what both have is equal: 2 ticks (0 to 1), 2 signals, 4 values
-        golden g.vcd: clock top.clk, 8 ticks, 6 only here
-        other  o.vcd: clock top.clk, scope top, 2 ticks
+        golden is 5 ticks longer; what both have is equal: 3 ticks (0 to 2), 2 signals, 6 values; in golden 1 moved, 1 never changed
+        golden g.vcd: clock top.clk, 8 ticks, 5 only here
+        other  o.vcd: clock top.clk, scope top, 3 ticks
         error: the files end in different ticks; --ticks chooses those of both, --any-length takes the rest as equal
     "#]]
     .assert_eq(&format!("{}{}", done.stdout, done.stderr));
@@ -212,7 +212,7 @@ fn values_that_are_wider_than_they_are_written_have_a_bound() {
             "$var wire 1000000 w wide [999999:0] $end\n$upscope",
         );
         text.truncate(text.find("#0\n").unwrap());
-        text += "#0\n0!\nb0 v0\n";
+        text += "#0\n0!\nb0 v0\nb0 v1\n";
         for at in 0..changes {
             text += &format!("#{}\n{}!\nb{} w\n", at + 1, at % 2, at % 2);
         }
@@ -242,7 +242,7 @@ fn values_that_are_wider_than_they_are_written_have_a_bound() {
 /// The outermost scope beside an inner one that is named.
 #[test]
 fn a_scope_that_is_named_pairs_no_other_beside_it() {
-    let golden = ["wire 1 go", "reg 1 u.x", "reg 1 v.x"];
+    let golden = ["wire 1 go", "reg 1 u.x out", "reg 1 v.x"];
     let rows: [&[&str]; 2] = [&["1", "0", "1"], &["0", "1", "0"]];
     let bench = Bench::with("g.vcd", dump(&["top"], &golden, &rows));
     // What is called `go` and `v.x` here has other values: it is something else.
@@ -253,7 +253,7 @@ fn a_scope_that_is_named_pairs_no_other_beside_it() {
     let mapped = ["compare", "g.vcd", "o.vcd", "--map", "m.toml"];
     let done = bench.run(&mapped);
     expect![[r#"
-        ports of golden without partner: top.go; what pairs is equal: 2 ticks (0 to 1), 1 signal, 2 values
+        ports in of golden without partner: top.go; what is compared is equal: 2 ticks (0 to 1), 1 signal, 2 values; in golden 1 moved, 0 never changed
         golden g.vcd: clock top.clk, 2 ticks
         other  o.vcd: clock tb.clk, 2 ticks
 
@@ -262,7 +262,7 @@ fn a_scope_that_is_named_pairs_no_other_beside_it() {
           top.v.x
 
         signals not compared: 2 without partner in golden, 2 without partner in other
-        error: ports of golden without partner: 1; a map pairs them, --allow-missing takes the rest as equal
+        error: ports in of golden without partner: 1; a map pairs them, --allow-missing takes the rest as equal
     "#]]
     .assert_eq(&format!("{}{}", done.stdout, done.stderr));
     assert_eq!(done.code, 1);

@@ -14,6 +14,8 @@ mod checks;
 mod commands;
 mod compare;
 mod compare_names;
+mod compare_odd;
+mod compare_ports;
 mod compare_refusals;
 mod damage;
 mod drawings;

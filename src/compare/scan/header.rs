@@ -1,10 +1,12 @@
 use super::{Kind, Words};
 use crate::input::Fault;
+use crate::trace::PORTS_OUT;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
-/// The widest variable, in bits. Beyond it a wrong number is likelier than a signal.
-const WIDEST: u32 = 1 << 20;
+/// The widest variable that the reader sees, in bits. Beyond it a wrong number is likelier than a
+/// signal.
+const WIDEST: u64 = 1 << 20;
 
 /// What stands before the values.
 #[derive(Default)]
@@ -13,14 +15,20 @@ pub(super) struct Header<'a> {
     pub codes: HashMap<&'a [u8], Kind>,
     /// This crate wrote the file.
     pub ours: bool,
-    /// Where there is a second `$date` or `$version`.
-    pub again: Vec<Range<usize>>,
+    /// Paths of the ports out, where a comment names them.
+    pub ports_out: Option<Vec<String>>,
+    /// What the reader panics at or takes for something else: a second `$date` or `$version`, scopes
+    /// without a name, variables of no width.
+    pub blank: Vec<Range<usize>>,
+    /// Variables among that.
+    pub without_bits: usize,
 }
 
 pub(super) fn header<'a>(words: &mut Words<'a>) -> Result<Header<'a>, Fault> {
     let mut header = Header::default();
     let mut once = HashSet::new();
-    let mut depth = 0;
+    // For each open scope, if it has a name.
+    let mut scopes = Vec::new();
     while let Some(name) = words.next() {
         if !name.starts_with(b"$") {
             return Err(words.fault(
@@ -41,19 +49,38 @@ pub(super) fn header<'a>(words: &mut Words<'a>) -> Result<Header<'a>, Fault> {
             b"$date" | b"$version" => {
                 header.ours |= name == b"$version" && body.first() == Some(&&b"motion-rtl"[..]);
                 if again {
-                    header.again.push(begin..words.place);
+                    header.blank.push(begin..words.place);
                 }
             }
-            b"$timescale" | b"$comment" | b"$attrbegin" | b"$attrend" => {}
-            b"$scope" if body.len() < 2 => {
+            b"$comment" => {
+                if let Some(ports) = ports_out(&body) {
+                    header.ports_out.get_or_insert_default().extend(ports);
+                }
+            }
+            b"$timescale" | b"$attrbegin" | b"$attrend" => {}
+            b"$scope" if body.is_empty() => {
                 return Err(words.fault(name, "a word is missing", "$scope KIND NAME $end"));
             }
-            b"$scope" => depth += 1,
-            b"$upscope" if depth == 0 => {
-                return Err(words.fault(name, "no scope is open", "one $upscope for each $scope"));
+            b"$scope" => {
+                scopes.push(body.len() > 1);
+                if body.len() == 1 {
+                    header.blank.push(begin..words.place);
+                }
             }
-            b"$upscope" => depth -= 1,
-            b"$var" => variable(words, line, &body, &mut header.codes)?,
+            b"$upscope" => match scopes.pop() {
+                Some(true) => {}
+                Some(false) => header.blank.push(begin..words.place),
+                None => {
+                    let allowed = "one $upscope for each $scope";
+                    return Err(words.fault(name, "no scope is open", allowed));
+                }
+            },
+            b"$var" => {
+                if !variable(words, line, &body, &mut header.codes)? {
+                    header.blank.push(begin..words.place);
+                    header.without_bits += 1;
+                }
+            }
             b"$enddefinitions" => {
                 // The reader begins with the next line.
                 let rest = &words.bytes[words.place..];
@@ -82,12 +109,22 @@ pub(super) fn header<'a>(words: &mut Words<'a>) -> Result<Header<'a>, Fault> {
     Err(words.cut_off("the file ends before $enddefinitions"))
 }
 
+/// Names behind the words that begin a comment of ports out.
+fn ports_out(comment: &[&[u8]]) -> Option<Vec<String>> {
+    let begin = PORTS_OUT.split(' ').map(str::as_bytes);
+    let names = comment.iter().copied();
+    let begins = begin.clone().eq(names.clone().take(begin.clone().count()));
+    let name = |name| String::from_utf8_lossy(name).into_owned();
+    begins.then(|| names.skip(begin.count()).map(name).collect())
+}
+
+/// False for a variable that the reader must not see.
 fn variable<'a>(
     words: &Words<'a>,
     line: usize,
     body: &[&'a [u8]],
     codes: &mut HashMap<&'a [u8], Kind>,
-) -> Result<(), Fault> {
+) -> Result<bool, Fault> {
     let fault = |field: &[u8], problem: &str, allowed: &str| {
         let mut fault = words.fault(field, problem, allowed);
         fault.line = line;
@@ -102,13 +139,14 @@ fn variable<'a>(
     };
     let width = str::from_utf8(width)
         .ok()
-        .and_then(|text| text.parse().ok());
+        .and_then(|text| text.parse::<u64>().ok());
     let kind = match (kind, width) {
         (b"string", _) => Kind::String,
         (b"real" | b"realtime" | b"shortreal" | b"real_parameter", _) => Kind::Real,
         (b"event", _) => Kind::Bits(1),
-        (_, Some(width @ 1..=WIDEST)) => Kind::Bits(width),
-        _ => return Err(fault(name, "has no width", "1 to 1048576 bits")),
+        (_, Some(width @ 1..=WIDEST)) => Kind::Bits(width as u32),
+        (_, Some(_)) => Kind::Nothing,
+        _ => return Err(fault(name, "has no width", "a number of bits")),
     };
     if !code.iter().all(u8::is_ascii_graphic) {
         return Err(fault(
@@ -124,15 +162,16 @@ fn variable<'a>(
             "a name, then its range",
         ));
     }
-    if codes
-        .insert(code, kind)
-        .is_some_and(|earlier| earlier != kind)
-    {
+    let known = codes.entry(code).or_insert(kind);
+    if *known == Kind::Nothing {
+        *known = kind;
+    }
+    if kind != Kind::Nothing && *known != kind {
         return Err(fault(
             name,
             "another variable of its code has another width or kind",
             "one code for each signal",
         ));
     }
-    Ok(())
+    Ok(kind != Kind::Nothing)
 }

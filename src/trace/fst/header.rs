@@ -18,6 +18,11 @@ const REG: u8 = 5;
 const WIRE: u8 = 16;
 const STRING: u8 = 21;
 
+/// Directions of a variable.
+const NO_DIRECTION: u8 = 0;
+const INPUT: u8 = 1;
+const OUTPUT: u8 = 2;
+
 /// The width of strings in the geometry, whose values bring their length.
 const VARIABLE: u64 = u32::MAX as u64;
 
@@ -121,7 +126,7 @@ impl Hierarchy {
         // The end of the name, and no name of a component.
         self.text.extend([0, 0]);
         if outermost {
-            self.variable(WIRE, CLK, Variable::Clk);
+            self.variable([WIRE, NO_DIRECTION], CLK, Variable::Clk);
         }
         for &index in &scope.leaves {
             let leaf = &layout.leaves[index];
@@ -129,14 +134,21 @@ impl Hierarchy {
                 Role::Register => REG,
                 Role::Input | Role::Net => WIRE,
             };
+            let direction = match leaf.role {
+                Role::Input => INPUT,
+                _ if layout.ports_out.binary_search(&index).is_ok() => OUTPUT,
+                _ => NO_DIRECTION,
+            };
             let width = leaf.shape.width;
             let bits = Variable::Bits { leaf: index, width };
-            match width {
-                1 => self.variable(kind, &leaf.name, bits),
-                _ => self.variable(kind, &format!("{} [{}:0]", leaf.name, width - 1), bits),
-            }
+            let name = match width {
+                1 => leaf.name.clone(),
+                _ => format!("{} [{}:0]", leaf.name, width - 1),
+            };
+            self.variable([kind, direction], &name, bits);
             if let (Format::States(names), Some(name)) = (leaf.field.format, companion(leaf)) {
-                self.variable(STRING, &name, Variable::Names { leaf: index, names });
+                let names = Variable::Names { leaf: index, names };
+                self.variable([STRING, NO_DIRECTION], &name, names);
             }
         }
         for inner in &scope.scopes {
@@ -145,9 +157,8 @@ impl Hierarchy {
         self.text.push(UP);
     }
 
-    fn variable(&mut self, kind: u8, name: &str, variable: Variable) {
-        let no_direction = 0;
-        self.text.extend([kind, no_direction]);
+    fn variable(&mut self, kind_and_direction: [u8; 2], name: &str, variable: Variable) {
+        self.text.extend(kind_and_direction);
         self.text.extend(name.bytes());
         self.text.push(0);
         let width = variable.width();

@@ -3,6 +3,7 @@
 use super::file::CLK_CODE;
 use crate::hdl::Role;
 use crate::trace::Clock;
+use crate::trace::PORTS_OUT;
 use crate::trace::layout::{CLK, Layout, Scope, companion};
 use std::io;
 use vcd::{IdCode, ReferenceIndex, VarType};
@@ -18,6 +19,14 @@ pub fn header(
     let mut out = vcd::Writer::new(out);
     out.version(concat!("motion-rtl ", env!("CARGO_PKG_VERSION")))?;
     out.comment(&clock.to_string())?;
+    if !layout.ports_out.is_empty() {
+        let paths = layout
+            .ports_out
+            .iter()
+            .map(|&leaf| layout.leaves[leaf].path());
+        let paths: Vec<String> = paths.collect();
+        out.comment(&format!("{PORTS_OUT} {}", paths.join(" ")))?;
+    }
     let (factor, unit) = clock.timescale();
     out.timescale(factor, unit)?;
     out.add_module(&layout.top.name)?;

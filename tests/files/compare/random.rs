@@ -17,6 +17,8 @@ fn bits(value: u64, width: u32) -> String {
 
 fn header(trace: &Trace, scale: &str, scopes: &[&str]) -> String {
     let mut text = format!("$timescale {scale} $end\n");
+    let ports = (0..trace.widths.len()).map(|place| format!(" {}.sig{place}", scopes.join(".")));
+    text += &format!("$comment ports out:{} $end\n", ports.collect::<String>());
     for scope in scopes {
         text += &format!("$scope module {scope} $end\n");
     }

@@ -138,3 +138,106 @@ fn a_full_disk_is_an_error() {
     let error = Fst::new(full(), &Zoo, clock(), &Options::default()).unwrap_err();
     assert_eq!(error.kind(), io::ErrorKind::StorageFull);
 }
+
+/// A number of seven bits a byte, the lowest first.
+fn varint(bytes: &mut &[u8]) -> u64 {
+    let mut value = 0;
+    for place in 0.. {
+        let (&byte, rest) = bytes.split_first().unwrap();
+        *bytes = rest;
+        value |= u64::from(byte & 0x7f) << (7 * place);
+        if byte & 0x80 == 0 {
+            break;
+        }
+    }
+    value
+}
+
+/// When each section of values begins, and the values that stand then as characters of all signals
+/// in a row.
+fn frames(bytes: &[u8]) -> Vec<(u64, Vec<u8>)> {
+    let mut rest = bytes;
+    let mut frames = Vec::new();
+    while let Some((&kind, after)) = rest.split_first() {
+        let number = |place: usize| u64::from_be_bytes(after[place..place + 8].try_into().unwrap());
+        let length = number(0) as usize;
+        if kind == 8 {
+            let mut section = &after[32..length];
+            let [unpacked, packed, _] = [(); 3].map(|()| varint(&mut section) as usize);
+            let frame = &section[..packed];
+            let frame = match packed == unpacked {
+                true => frame.to_vec(),
+                false => miniz_oxide::inflate::decompress_to_vec_zlib(frame).unwrap(),
+            };
+            assert_eq!(frame.len(), unpacked);
+            frames.push((number(8), frame));
+        }
+        rest = &after[length..];
+    }
+    frames
+}
+
+/// A viewer that goes to a time in the middle of the file begins with the frame of its section: it
+/// has what stands at the end of the section before, of every signal.
+#[test]
+fn each_section_begins_with_the_values_that_stand_there() {
+    let [vcd, fst] = both(TICKS, clock(), &Options::default());
+    let mut wave = wellen::simple::read_from_reader(Cursor::new(fst.clone())).unwrap();
+    let order: Vec<_> = wave.hierarchy().all_vars().collect();
+    wave.load_signals(&[]);
+    let hierarchy = wave.hierarchy();
+    let dump = reader::read(&vcd);
+    let frames = frames(&fst);
+    assert!(frames.len() >= 3, "{} sections", frames.len());
+    let mut moved = 0;
+    for (at, (time, frame)) in frames.iter().enumerate() {
+        let mut frame = &frame[..];
+        for &var in &order {
+            let var = &hierarchy[var];
+            let Some(width) = var.length(hierarchy) else {
+                continue;
+            };
+            let (found, rest) = frame.split_at(width as usize);
+            frame = rest;
+            let name = var.full_name(hierarchy);
+            let wanted = dump.variables[&name].at(*time).unwrap();
+            let width = width as usize;
+            let wanted = format!("{wanted:0>width$}");
+            let found = str::from_utf8(found).unwrap();
+            assert_eq!(found, wanted, "{name} in section {at} at {time}");
+            let first = dump.variables[&name].at(frames[0].0).unwrap();
+            moved += u32::from(!wanted.ends_with(first));
+        }
+        assert!(frame.is_empty(), "{} characters are left", frame.len());
+    }
+    assert!(moved > 10, "{moved} values are not those of the start");
+}
+
+/// Ports out of the outermost circuit, in either format.
+#[test]
+fn both_formats_tell_the_ports_out() {
+    for (only, wanted) in [
+        (vec![], &["zoo.count", "zoo.read", "zoo.busy"][..]),
+        (
+            vec!["zoo.left"],
+            &["zoo.left.level", "zoo.left.phase", "zoo.left.wrapped"],
+        ),
+    ] {
+        let [vcd, fst] = both(10, clock(), &options(0..10, &only));
+        let text = String::from_utf8(vcd).unwrap();
+        let comment = text.split("ports out:").nth(1).unwrap();
+        let named = comment.split("$end").next().unwrap();
+        let named: Vec<&str> = named.split_whitespace().collect();
+        let wave = wellen::simple::read_from_reader(Cursor::new(fst)).unwrap();
+        let hierarchy = wave.hierarchy();
+        let outputs = hierarchy.all_vars().map(|var| &hierarchy[var]);
+        let outputs = outputs.filter(|var| var.direction() == wellen::VarDirection::Output);
+        let outputs: Vec<String> = outputs.map(|var| var.full_name(hierarchy)).collect();
+        let mut sorted = named.clone();
+        sorted.sort_unstable();
+        let mut found: Vec<&str> = outputs.iter().map(String::as_str).collect();
+        found.sort_unstable();
+        assert_eq!(sorted, found);
+        assert_eq!(named, wanted);
+    }
+}
