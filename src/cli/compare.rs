@@ -8,9 +8,9 @@ use std::path::PathBuf;
 /// What to compare.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The waveform that is right, VCD or FST.
+    /// The waveform that is right: VCD, FST or GHW.
     golden: PathBuf,
-    /// The waveform to hold against it, VCD or FST.
+    /// The waveform to hold against it: VCD, FST or GHW.
     other: PathBuf,
     /// Names that differ and signals to leave out, in TOML.
     #[arg(long, value_name = "FILE")]
@@ -25,7 +25,7 @@ pub struct Arguments {
     #[arg(long)]
     ignore_case: bool,
     /// The ports out of GOLDEN, by their paths or the ends of them, where it does not tell them itself:
-    /// waves of this program do, and an FST with directions.
+    /// waves of this program do, and an FST or GHW with directions.
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     ports_out: Vec<String>,
     /// Ports out of GOLDEN to leave out, by their paths or the ends of them. Any other one that is not

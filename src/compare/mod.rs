@@ -1,7 +1,7 @@
 //! Two waveforms held against each other, tick by tick.
 //!
 //! This is for holding an implementation in Verilog or VHDL against a dump of this crate: the
-//! *golden* file is ours, the *other* is what a simulator wrote. Both are VCD or FST.
+//! *golden* file is ours, the *other* is what a simulator wrote. Both are VCD, FST or GHW.
 //!
 //! ```no_run
 //! use motion_rtl::compare::{Settings, compare};
@@ -39,7 +39,7 @@
 //! value of any pair was compared, that is an error.
 //!
 //! **Ports out.** Two files are equal only if every port out of golden's outermost circuit was compared.
-//! Waves of this crate tell which they are, an FST by the directions of its variables; for other
+//! Waves of this crate tell which they are, an FST or GHW by the directions of its variables; for other
 //! golden files [`Settings::ports_out`] names them. [`Settings::leave`] and `leave` in a [`Map`] leave
 //! some out by name.
 //!
@@ -53,6 +53,7 @@
 mod around;
 mod ends;
 mod gap;
+mod ghw;
 mod hold;
 mod map;
 mod mapped;
@@ -139,7 +140,7 @@ impl Default for Settings {
 /// one before it.
 ///
 /// # Errors
-/// A file that cannot be read or is no complete VCD or FST, a clock that is none or is not to be
+/// A file that cannot be read or is no complete VCD, FST or GHW, a clock that is none or is not to be
 /// found, a golden file without ports out, no scope or more than one that stands for golden's, a map
 /// that does not fit the files, nothing to compare.
 pub fn compare(golden: &Path, other: &Path, settings: &Settings) -> Result<Report, Fault> {

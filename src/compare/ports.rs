@@ -6,8 +6,8 @@ use super::wave::Wave;
 use crate::input::Fault;
 use std::collections::HashSet;
 
-const ALLOWED: &str = "--ports-out NAME,… that names them, a VCD or FST of motion-rtl, or an FST with \
-                       directions";
+const ALLOWED: &str = "--ports-out NAME,… that names them, a VCD or FST of motion-rtl, or an FST or \
+                       GHW with directions";
 
 /// Ports out that are compared, and those that are left out.
 #[derive(Debug, Default)]

@@ -1,50 +1,101 @@
 //! An FST is looked through before it is read: the reader makes room for whatever number of bytes
 //! or items the file claims to have, and where there is no such room the program ends.
 
-use super::gap::Gap;
-use crate::input::Fault;
+mod packed;
+mod values;
 
-/// The most that deflate can make of a byte.
-const DEFLATE: u64 = 1032;
-/// The most that LZ4 can make of a byte.
-const LZ4: u64 = 255;
+use super::gap::Gap;
+use super::wave::LARGEST;
+use crate::input::Fault;
+use packed::{DEFLATE, lz4_length, number, varint, zlib};
 
 const HEADER: u8 = 0;
 /// With the eight bytes of the length itself.
 const HEADER_LENGTH: u64 = 329;
 const BLACKOUT: u8 = 2;
 const GEOMETRY: u8 = 3;
+/// The whole file, packed by gzip.
+const WRAPPER: u8 = 254;
+/// What stands before the packed bytes of a stream of gzip that has no name and no comment.
+const GZIP: [u8; 4] = [0x1f, 0x8b, 8, 0];
+const GZIP_HEADER: usize = 10;
 
 struct Section<'a> {
     kind: u8,
     bytes: &'a [u8],
 }
 
-/// Whether it begins as an FST does: with a header, which has always the same length.
+/// Widths of the signals as the file tells them, by handle.
+struct Geometry {
+    /// 0 where values bring their length.
+    lengths: Vec<u32>,
+}
+
+/// True if it begins as an FST does: with a header, which has always the same length.
 ///
 /// The reader looks for this too, but goes on for ever behind lengths that overflow.
 pub(super) fn begins(bytes: &[u8]) -> bool {
     bytes.first() == Some(&HEADER) && number(bytes, 1) == Some(HEADER_LENGTH)
 }
 
-/// Refuses sections that claim more than they can hold. Gives the times in which the dump was
+/// The FST in a file that is packed as a whole, as GHDL, NVC and `vvp -fst-space` write it; nothing
+/// where the file is none of those.
+pub(super) fn unwrap(file: &str, bytes: &[u8]) -> Result<Option<Vec<u8>>, Fault> {
+    if bytes.first() != Some(&WRAPPER) {
+        return Ok(None);
+    }
+    let fault = |problem: &str| {
+        let allowed = "a complete FST of at most 1073741824 bytes, from a simulator that has ended";
+        Fault::new(file, 0, "file", problem, allowed)
+    };
+    let (Some(length), Some(claimed)) = (number(bytes, 1), number(bytes, 9)) else {
+        return Err(fault("is cut off"));
+    };
+    if length == 0 {
+        return Err(fault("is not packed to its end"));
+    }
+    let packed = bytes.get(17..).filter(|packed| packed.starts_with(&GZIP));
+    let packed = packed.and_then(|packed| packed.get(GZIP_HEADER..));
+    let packed = packed.ok_or_else(|| fault("is packed by something else than gzip"))?;
+    if claimed > LARGEST.min((packed.len() as u64).saturating_mul(DEFLATE)) {
+        return Err(fault("unpacks to more than there can be"));
+    }
+    let limit = usize::try_from(claimed).unwrap_or(usize::MAX);
+    let unpacked = miniz_oxide::inflate::decompress_to_vec_with_limit(packed, limit);
+    match unpacked {
+        Ok(unpacked) if unpacked.len() == limit && begins(&unpacked) => Ok(Some(unpacked)),
+        _ => Err(fault(
+            "does not unpack to an FST of the length that it tells",
+        )),
+    }
+}
+
+/// Refuses sections that claim more than they hold. Gives the times in which the dump was
 /// switched off.
 pub(super) fn check(file: &str, bytes: &[u8]) -> Result<Vec<Gap>, Fault> {
-    let gaps = sections(bytes).and_then(|sections| {
-        let complete = sections.iter().any(|section| section.kind == GEOMETRY);
-        let handles = sections.iter().filter(|section| section.kind == GEOMETRY);
-        let handles = handles.filter_map(|section| number(section.bytes, 8)).max();
-        let fits = |section: &Section<'_>| fits(section, handles.unwrap_or(0)).is_some();
-        let mut gaps = Vec::new();
-        for section in sections.iter().filter(|section| section.kind == BLACKOUT) {
-            blackouts(section.bytes, &mut gaps)?;
-        }
-        (complete && sections.iter().all(fits)).then_some(gaps)
-    });
-    gaps.ok_or_else(|| {
+    checked(bytes).ok_or_else(|| {
         let allowed = "a complete FST, from a simulator that has ended";
         Fault::new(file, 0, "file", "its sections do not fit together", allowed)
     })
+}
+
+fn checked(bytes: &[u8]) -> Option<Vec<Gap>> {
+    let sections = sections(bytes)?;
+    let mut gaps = Vec::new();
+    let mut geometry = None;
+    for section in &sections {
+        match section.kind {
+            BLACKOUT => blackouts(section.bytes, &mut gaps)?,
+            // The reader takes the last one.
+            GEOMETRY => geometry = Some(Geometry::read(section.bytes)?),
+            _ => {}
+        }
+    }
+    let geometry = geometry?;
+    for section in &sections {
+        fits(section, &geometry)?;
+    }
+    Some(gaps)
 }
 
 /// How many, then for each whether the dump is on from there, and the time since the one before.
@@ -61,24 +112,6 @@ fn blackouts(bytes: &[u8], gaps: &mut Vec<Gap>) -> Option<()> {
     Some(())
 }
 
-/// The eight bytes at this place as a number.
-fn number(bytes: &[u8], place: usize) -> Option<u64> {
-    let end = place.checked_add(8)?;
-    Some(u64::from_be_bytes(bytes.get(place..end)?.try_into().ok()?))
-}
-
-/// A number of seven bits a byte, the lowest first; behind it what follows.
-fn varint(bytes: &[u8]) -> Option<(u64, &[u8])> {
-    let mut value = 0;
-    for (place, byte) in bytes.iter().take(9).enumerate() {
-        value |= u64::from(byte & 0x7f) << (7 * place);
-        if byte & 0x80 == 0 {
-            return Some((value, &bytes[place + 1..]));
-        }
-    }
-    None
-}
-
 /// The sections without kind and length, to the end of the file.
 fn sections(mut rest: &[u8]) -> Option<Vec<Section<'_>>> {
     let mut sections = Vec::new();
@@ -92,47 +125,46 @@ fn sections(mut rest: &[u8]) -> Option<Vec<Section<'_>>> {
 }
 
 /// Nothing where the section claims too much.
-fn fits(section: &Section<'_>, handles: u64) -> Option<()> {
+fn fits(section: &Section<'_>, geometry: &Geometry) -> Option<()> {
     let bytes = section.bytes;
-    let room = (bytes.len() as u64).checked_mul(DEFLATE)?;
     let within = |value: u64, most: u64| (value <= most).then_some(());
     match section.kind {
         HEADER => within(320, bytes.len() as u64),
-        // Values: two times, memory, the first values, the changes and their places, and last the
-        // times.
-        1 | 5 | 8 => {
-            let times = bytes.len().checked_sub(24)?;
-            let uncompressed = number(bytes, times)?;
-            within(uncompressed, room)?;
-            let compressed = number(bytes, times + 8)?;
-            within(compressed, times as u64)?;
-            // Before the times stands how long the list of places before it is.
-            let places = (times as u64).checked_sub(compressed.checked_add(8)?)?;
-            within(number(bytes, usize::try_from(places).ok()?)?, places)?;
-            within(number(bytes, times + 16)?, uncompressed)?;
-            let (uncompressed, rest) = varint(bytes.get(24..)?)?;
-            within(uncompressed, room)?;
-            let (compressed, rest) = varint(rest)?;
-            within(compressed, rest.len() as u64)?;
-            let (count, rest) = varint(rest)?;
-            within(count, handles)?;
-            let (count, _) = varint(rest.get(usize::try_from(compressed).ok()?..)?)?;
-            within(count, handles)
-        }
-        GEOMETRY => {
-            let uncompressed = number(bytes, 0)?;
-            within(uncompressed, room)?;
-            within(number(bytes, 8)?, uncompressed)
-        }
+        1 | 5 | 8 => values::fit(section.kind, bytes, geometry),
         // The hierarchy: by deflate, by LZ4, by LZ4 twice with the length in between.
-        4 => within(number(bytes, 0)?, room),
-        6 => within(number(bytes, 0)?, (bytes.len() as u64).checked_mul(LZ4)?),
+        4 => within(
+            number(bytes, 0)?,
+            (bytes.len() as u64).checked_mul(DEFLATE)?,
+        ),
+        6 => within(number(bytes, 0)?, lz4_length(bytes.get(8..)?)?),
         7 => {
             let (once, rest) = varint(bytes.get(8..)?)?;
-            within(once, (rest.len() as u64).checked_mul(LZ4)?)?;
-            within(number(bytes, 0)?, once.checked_mul(LZ4)?)
+            within(once, lz4_length(rest)?)?;
+            let once = lz4_flex::block::decompress(rest, usize::try_from(once).ok()?).ok()?;
+            within(number(bytes, 0)?, lz4_length(&once)?)
         }
         _ => Some(()),
+    }
+}
+
+impl Geometry {
+    /// The bytes unpacked, how many signals, and for each its length.
+    fn read(bytes: &[u8]) -> Option<Self> {
+        let unpacked = zlib(bytes.get(16..)?, number(bytes, 0)?)?;
+        let count = number(bytes, 8)?;
+        let mut rest = &unpacked[..];
+        let mut lengths = Vec::new();
+        for _ in 0..count {
+            let (length, after) = varint(rest)?;
+            rest = after;
+            lengths.push(match u32::try_from(length).ok()? {
+                // A real number.
+                0 => 8,
+                u32::MAX => 0,
+                length => length,
+            });
+        }
+        Some(Geometry { lengths })
     }
 }
 
@@ -140,32 +172,49 @@ fn fits(section: &Section<'_>, handles: u64) -> Option<()> {
 mod tests {
     use super::*;
 
-    /// Whether a hierarchy of this kind holds what it claims, if `rest` is behind the claim.
+    /// True if a hierarchy of this kind holds what it claims, if `rest` is behind the claim.
     fn holds(kind: u8, claim: u64, rest: &[u8]) -> bool {
         let bytes = [&claim.to_be_bytes(), rest].concat();
         let section = Section {
             kind,
             bytes: &bytes,
         };
-        fits(&section, 0).is_some()
+        let lengths = Vec::new();
+        fits(&section, &Geometry { lengths }).is_some()
     }
 
     #[test]
-    fn a_hierarchy_holds_what_its_compression_can_make_of_it() {
+    fn a_hierarchy_holds_what_its_compression_makes_of_it() {
         let rest = [0; 92];
-        for (kind, most) in [(4, 100 * 1032), (6, 100 * 255)] {
-            assert!(holds(kind, most, &rest), "{kind}");
-            assert!(!holds(kind, most + 1, &rest), "{kind}");
-        }
-        // 300 bytes after the first step, of which there are two here.
-        let twice = [0xac, 0x02, 0, 0];
-        assert!(holds(7, 300 * 255, &twice));
-        assert!(!holds(7, 300 * 255 + 1, &twice));
-        // More after the first step than two bytes can be.
-        let [low, high] = [0xff, 0x03];
-        assert!(!holds(7, 1, &[low, high, 0, 0]));
+        assert!(holds(4, 100 * DEFLATE, &rest));
+        assert!(!holds(4, 100 * DEFLATE + 1, &rest));
+        let text = b"counter counter counter counter counter counter counter ".repeat(9);
+        let once = lz4_flex::block::compress(&text);
+        let length = text.len() as u64;
+        assert!(holds(6, length, &once));
+        assert!(!holds(6, length + 1, &once));
+        let twice = lz4_flex::block::compress(&once);
+        let twice = [&[once.len() as u8][..], &twice].concat();
+        assert!(once.len() < 128 && holds(7, length, &twice));
+        assert!(!holds(7, length + 1, &twice));
         for kind in [4, 6, 7] {
             assert!(!holds(kind, u64::MAX, &rest), "{kind}");
+        }
+    }
+
+    #[test]
+    fn a_geometry_has_a_length_for_each_signal() {
+        let read = |claim: u64, count: u64, rest: &[u8]| {
+            let bytes = [&claim.to_be_bytes()[..], &count.to_be_bytes(), rest].concat();
+            Geometry::read(&bytes).map(|geometry| geometry.lengths)
+        };
+        let lengths = [1, 0, 0xff, 0xff, 0xff, 0xff, 0x0f, 0xac, 0x02];
+        assert_eq!(read(9, 4, &lengths), Some(vec![1, 8, 0, 300]));
+        assert_eq!(read(9, 5, &lengths), None);
+        let packed = miniz_oxide::deflate::compress_to_vec_zlib(&[1; 100], 1);
+        assert_eq!(read(100, 100, &packed), Some(vec![1; 100]));
+        for claim in [99, 101, 1 << 40] {
+            assert_eq!(read(claim, 90, &packed), None);
         }
     }
 }

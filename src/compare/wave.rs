@@ -1,4 +1,5 @@
 use super::gap::Gap;
+use super::ghw;
 use super::names::{self, listed};
 use super::quiet::catch;
 use super::scan::{self, Scanned};
@@ -79,7 +80,10 @@ impl Wave {
 
     pub fn parse(file: &str, mut bytes: Vec<u8>) -> Result<Self, Fault> {
         let fault = |problem: &str, allowed: &str| Fault::new(file, 0, "file", problem, allowed);
-        let formats = "a VCD or an FST";
+        let formats = "a VCD, an FST or a GHW";
+        if let Some(unwrapped) = sections::unwrap(file, &bytes)? {
+            bytes = unwrapped;
+        }
         if bytes.starts_with(BYTE_ORDER_MARK) {
             bytes.drain(..BYTE_ORDER_MARK.len());
         }
@@ -95,9 +99,14 @@ impl Wave {
                 }
                 "VCD"
             }
+            Some(_) if ghw::begins(&bytes) => {
+                ghw::check(file, &bytes)?;
+                scanned = Scanned::default();
+                "GHW"
+            }
             Some(_) => {
                 if !sections::begins(&bytes) {
-                    return Err(fault("neither a VCD nor an FST", formats));
+                    return Err(fault("neither VCD, FST nor GHW", formats));
                 }
                 scanned = Scanned {
                     gaps: sections::check(file, &bytes)?,

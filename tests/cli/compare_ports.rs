@@ -146,7 +146,7 @@ fn a_golden_file_that_does_not_tell_its_ports_out_is_refused_unless_they_are_nam
     bench.refuse(
         &BOTH,
         "g.vcd: ports out: the file does not tell which they are; allowed: --ports-out NAME,… that \
-         names them, a VCD or FST of motion-rtl, or an FST with directions",
+         names them, a VCD or FST of motion-rtl, or an FST or GHW with directions",
     );
     let named = [&BOTH[..], &["--ports-out", "taken,top.idle"]].concat();
     let report = bench.json(&named);
@@ -162,7 +162,7 @@ fn a_golden_file_that_does_not_tell_its_ports_out_is_refused_unless_they_are_nam
         (
             &["--ports-out", "clk"],
             "ports out: there is none beside the clock; allowed: --ports-out NAME,… that names them, a \
-             VCD or FST of motion-rtl, or an FST with directions",
+             VCD or FST of motion-rtl, or an FST or GHW with directions",
         ),
         (
             &["--ports-out", "taken", "--leave", "idle"],

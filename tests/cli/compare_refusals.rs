@@ -26,13 +26,13 @@ fn files_that_are_no_waves_are_refused() {
         (
             "",
             &expect![[r#"
-            error: o.vcd: file: empty; allowed: a VCD or an FST
+            error: o.vcd: file: empty; allowed: a VCD, an FST or a GHW
         "#]],
         ),
         (
             "G1 X10\n",
             &expect![[r#"
-            error: o.vcd: file: neither a VCD nor an FST; allowed: a VCD or an FST
+            error: o.vcd: file: neither VCD, FST nor GHW; allowed: a VCD, an FST or a GHW
         "#]],
         ),
         (

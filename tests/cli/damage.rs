@@ -80,7 +80,7 @@ fn any_byte_of_a_vcd() {
 fn lengths_that_overflow_end_at_once() {
     let bench = Bench::with("golden.vcd", "$enddefinitions $end\n");
     bench.write("nine.vcd", [0xff; 9]);
-    let refused = "neither a VCD nor an FST; allowed: a VCD or an FST";
+    let refused = "neither VCD, FST nor GHW; allowed: a VCD, an FST or a GHW";
     assert_eq!(compare(&bench, "nine.vcd", "golden.vcd"), 2);
     let arguments = ["compare", "nine.vcd", "golden.vcd"];
     bench.refuse(&arguments, &format!("nine.vcd: file: {refused}"));

@@ -1,10 +1,13 @@
 //! Files that are cut off or have wrong bytes in them: an error or a report, never a panic.
 
+use super::wrapped::{self, wrapped};
 use motion_rtl::circuits::blocks::EnableCounter;
 use motion_rtl::compare::{Settings, compare};
 use motion_rtl::trace::{Clock, replay};
+use std::env;
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 /// A dump of 20 ticks.
 pub fn counter(directory: &Path) -> Vec<u8> {
@@ -52,4 +55,74 @@ fn wrong_bytes_are_an_error_or_a_report() {
             let _ = compare(&golden, &other, &Settings::default());
         }
     }
+}
+
+/// Address space in KiB and time of a processor in seconds of the program that compares.
+const MEMORY: u64 = 256 * 1024;
+const SECONDS: u64 = 120;
+/// Tells this test that it is that program.
+const CHILD: &str = "MOTION_RTL_COMPARES_DAMAGED_FST";
+
+/// One byte of a small FST is another: each byte, and each other value. What ends the program or takes
+/// more than it has is found by the number of the damage that was printed last.
+#[cfg(target_os = "linux")]
+#[test]
+#[ignore = "takes long"]
+fn every_value_of_every_byte_of_an_fst_needs_little_memory() {
+    let plain = wrapped::counter();
+    let files = [wrapped(&plain), plain];
+    let size: usize = files.iter().map(Vec::len).sum();
+    let damages = 255 * size;
+    if env::var_os(CHILD).is_some() {
+        return compare_damaged(&files);
+    }
+    let name = "compare::damage::every_value_of_every_byte_of_an_fst_needs_little_memory";
+    let limit = MEMORY + size.div_ceil(1024) as u64;
+    let script = format!("ulimit -c 0; ulimit -v {limit}; ulimit -t {SECONDS}; exec \"$0\" \"$@\"");
+    let mut child = Command::new("sh");
+    child.args(["-c", &script]).arg(env::current_exe().unwrap());
+    child.args([
+        "--exact",
+        name,
+        "--ignored",
+        "--nocapture",
+        "--test-threads=1",
+    ]);
+    // A pool of memory for each thread would take the limit by itself.
+    child.envs([
+        (CHILD, "1"),
+        ("RAYON_NUM_THREADS", "1"),
+        ("MALLOC_ARENA_MAX", "1"),
+    ]);
+    let output = child.output().unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    let mut numbers = said.lines().filter_map(|line| line.strip_prefix("damage "));
+    let last = numbers.next_back().unwrap_or("none").to_owned();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        output.status.success(),
+        "damage {last} of {damages}: {}\n{errors}",
+        output.status
+    );
+    assert_eq!(last, (damages - 1).to_string());
+}
+
+fn compare_damaged(files: &[Vec<u8>; 2]) {
+    let directory = tempfile::tempdir().unwrap();
+    let [golden, other] = ["golden.fst", "other.fst"].map(|name| directory.path().join(name));
+    let (mut damage, mut reports) = (0, 0);
+    for bytes in files {
+        fs::write(&golden, bytes).unwrap();
+        for place in 0..bytes.len() {
+            for change in 1..=255 {
+                println!("damage {damage}");
+                damage += 1;
+                let mut bytes = bytes.clone();
+                bytes[place] ^= change;
+                fs::write(&other, &bytes).unwrap();
+                reports += u32::from(compare(&golden, &other, &Settings::default()).is_ok());
+            }
+        }
+    }
+    assert!(reports > 1000, "only {reports} files were compared");
 }

@@ -4,3 +4,4 @@ mod damage;
 mod random;
 mod simulators;
 mod windows;
+mod wrapped;

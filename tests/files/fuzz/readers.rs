@@ -87,8 +87,16 @@ pub fn fst(bytes: &[u8]) {
 /// Held against itself it is equal, if it is a dump.
 fn waves(bytes: &[u8], extension: &str) {
     let file = Scratch::new(bytes, extension);
-    let settings = Settings::default();
-    match compare(&file.0, &file.0, &settings) {
+    let mut settings = Settings::default();
+    let mut held = compare(&file.0, &file.0, &settings);
+    // Ports out of the files that do not tell them.
+    for port in ["n", "step"] {
+        if held.as_ref().is_err_and(|fault| fault.field == "ports out") {
+            settings.ports_out = vec![port.to_owned()];
+            held = compare(&file.0, &file.0, &settings);
+        }
+    }
+    match held {
         Ok(report) => assert!(report.differences.is_empty(), "{report}"),
         Err(fault) => assert!(!fault.problem.is_empty() && !fault.allowed.is_empty()),
     }
