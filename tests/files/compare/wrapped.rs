@@ -8,8 +8,8 @@ use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 
-/// The FST of 20 ticks.
-pub fn counter() -> Vec<u8> {
+/// The FST of some ticks.
+pub fn counter(ticks: u64) -> Vec<u8> {
     let circuit = EnableCounter { width: 8 };
     let options = Options::default();
     let mut fst = Fst::new(
@@ -21,7 +21,7 @@ pub fn counter() -> Vec<u8> {
     .unwrap();
     let mut simulator = Simulator::new(&circuit).unwrap();
     simulator
-        .run(20, |_, _| In { period: 3 }, &mut fst)
+        .run(ticks, |_, _| In { period: 3 }, &mut fst)
         .unwrap();
     fst.finish().unwrap().into_inner()
 }
@@ -46,7 +46,7 @@ fn refusal(golden: &Path, other: &Path, bytes: &[u8]) -> String {
 fn a_packed_fst_is_what_is_in_it() {
     let directory = tempfile::tempdir().unwrap();
     let [plain, packed] = ["plain.fst", "packed.fst"].map(|name| directory.path().join(name));
-    let bytes = counter();
+    let bytes = counter(20);
     fs::write(&plain, &bytes).unwrap();
     fs::write(&packed, wrapped(&bytes)).unwrap();
     for [golden, other] in [[&plain, &packed], [&packed, &plain]] {
@@ -61,7 +61,7 @@ fn a_packed_fst_is_what_is_in_it() {
 fn a_packed_fst_that_is_cut_off_or_claims_too_much_is_refused() {
     let directory = tempfile::tempdir().unwrap();
     let [plain, packed] = ["plain.fst", "packed.fst"].map(|name| directory.path().join(name));
-    let bytes = counter();
+    let bytes = counter(20);
     fs::write(&plain, &bytes).unwrap();
     let whole = wrapped(&bytes);
     let refused = |bytes: &[u8]| refusal(&plain, &packed, bytes);
