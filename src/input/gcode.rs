@@ -6,9 +6,8 @@
 //! or R) in the planes G17, G18 and G19, the splines G5 and G5.1, the NURBS G5.2 to G5.3 and G6.2,
 //! probing (G38.2 to G38.5, which goes to its end as if nothing was touched), drilling (G73, G81 to
 //! G86 and G89 with G98 and, in force at the start, G99, L or K times, along the axis across the
-//! plane in force), and G28 and G30 by way of their axis words, or straight by letters without a
-//! number. G80 with another motion in its line
-//! yields to it.
+//! plane in force; G84 in G17 alone), and G28 and G30 by way of their axis words, or straight by
+//! letters without a number. G80 with another motion in its line yields to it.
 //! With [`Options::fourth`] W is an axis beside the three, in millimetres or inches, from the machine's
 //! zero: with G0 to G3 and G38 it goes linearly with the length. No offset and no reference point is
 //! of it.
@@ -85,7 +84,8 @@
 //! All that would change the path otherwise: M words and `$` commands that move or stop a machine, read
 //! or write other files or bring back positions on some controls; axis words and parameters that
 //! may belong to either of two words of their line; other rotary positions, cutter compensation
-//! (G41, G42), scaling, mirroring, rotation in space, diameters (G7), feeds per turn (G95), turning and threading cycles, macro calls, unknown words.
+//! (G41, G42), scaling, mirroring, rotation in space, diameters (G7), feeds per turn (G95), turning
+//! and threading cycles, macro calls, unknown words.
 //!
 //! # Text
 //!

@@ -2,6 +2,7 @@
 
 use super::block::Block;
 use super::machine::{Machine, Piece};
+use super::modal::Plane;
 use super::problem::Problem;
 use crate::input::{Course, Point};
 use crate::settings::tidy;
@@ -41,6 +42,11 @@ impl Machine<'_> {
         code: u32,
     ) -> Result<u64, Problem> {
         let field = format!("G{code}");
+        // LinuxCNC's interpreter mixes up the axes there.
+        if code == 84 && self.modal.plane != Plane::Xy {
+            let problem = "outside of G17, where controls differ";
+            return Err(Problem::new(field, problem, "tapping in the X-Y plane"));
+        }
         let axes @ [_, _, along] = self.modal.plane.axes();
         let units = self.modal.mm_per_unit;
         let words = block.axes().map(|word| word.map(|word| word * units));

@@ -149,7 +149,7 @@ fn holes_along_the_other_axes() {
             ][..],
         ),
         (
-            "F60 G19 G98 G91 G0 X5\nG84 Y1 Z2 R-2 X-3",
+            "F60 G19 G98 G91 G0 X5\nG85 Y1 Z2 R-2 X-3",
             &[
                 "rapid to 5 0 0",
                 "rapid to 5 1 2",
@@ -166,6 +166,7 @@ fn holes_along_the_other_axes() {
     ] {
         assert_eq!(moves(&accept(read, text)), expected, "{text}");
     }
+    assert!(refuse(read, "G18 G84 X1 R1 Y-1").starts_with("t:1: G84: outside of G17"));
     // Another plane begins another cycle.
     assert!(refuse(read, "G81 R2 Z1\nG18 Y1").starts_with("t:2: G81: without R"));
     assert!(refuse(read, "G18 G81 R2 Z1").starts_with("t:1: G81: without Y; allowed: Y with"));
