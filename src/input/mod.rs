@@ -9,6 +9,7 @@ mod fault;
 mod file;
 pub mod gcode;
 pub mod hpgl;
+mod moves;
 pub mod position_log;
 mod track;
 
@@ -20,6 +21,7 @@ pub use file::{
     DRAWINGS, Kind, LARGEST_FILE, MORE_FILES, Options, POSITION_LOGS, Zeros, or_more_files,
     read_bytes, read_path, read_path_with, read_string, read_string_of, read_text, read_text_with,
 };
+pub use moves::{Iter, Moves};
 
 use std::fmt;
 
@@ -79,7 +81,7 @@ pub struct Drawing {
     /// Where the first move starts: the origin, unless a reader says otherwise.
     pub start: Point,
     /// The moves, in order. Never empty, and none of zero length.
-    pub moves: Vec<Move>,
+    pub moves: Moves,
     /// W at the end of each move, in millimetres; it begins at 0. Empty without [`Options::fourth`].
     pub fourth: Vec<f64>,
     /// How many moves of the input had zero length. They take no time and are not in `moves`.

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{Course, Drawing, Fault, Move, Point, REACH_MM, Warning, ZERO_MM};
+use super::{Course, Drawing, Fault, Move, Moves, Point, REACH_MM, Warning, ZERO_MM};
 use crate::settings::tidy;
 
 /// The moves read so far and where the last one ended.
@@ -11,7 +11,7 @@ pub(super) struct Track<'a> {
     /// The file that is read for it.
     within: Option<String>,
     here: Point,
-    moves: Vec<Move>,
+    moves: Moves,
     /// W at the end of each move, where there is one.
     fourth: Vec<f64>,
     zero_length: usize,
@@ -35,7 +35,7 @@ impl<'a> Track<'a> {
             file,
             within: None,
             here: [0.0; 3],
-            moves: Vec::new(),
+            moves: Moves::default(),
             fourth: Vec::new(),
             zero_length: 0,
             notes: HashMap::new(),
@@ -216,7 +216,7 @@ mod tests {
         }
         let drawing = track.finish("moves").unwrap();
         assert_eq!(drawing.zero_length, 4);
-        assert_eq!(drawing.moves, [to(3.0 * step), to(6.0 * step)]);
+        assert!(drawing.moves.iter().eq([to(3.0 * step), to(6.0 * step)]));
     }
 
     #[test]

@@ -260,7 +260,7 @@ pub fn from_drawing(drawing: &Drawing, speeds: impl Into<Speeds>) -> Result<Vec<
                 .or(speeds.wanted),
         };
         Ok(Piece {
-            course: course(begin, step).map_err(|error| refuse(error.into()))?,
+            course: course(begin, &step).map_err(|error| refuse(error.into()))?,
             to: step.to,
             speed: speed.ok_or_else(|| refuse(Reason::NoSpeed))?,
             line: Some(step.line),

@@ -1,7 +1,7 @@
 //! The curve of one move, by its length.
 
 use super::{CENTRE_REACH_MM, FEED_RANGE, PlanError};
-use crate::input::{Course, Drawing, Move, Point, REACH_MM};
+use crate::input::{Course, Drawing, Point, REACH_MM};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// A move as a curve from its start, parametrised by a length in millimetres.
@@ -31,7 +31,9 @@ impl Curve {
     /// The curve of `drawing.moves[index]`.
     pub(super) fn of_move(drawing: &Drawing, index: usize) -> Self {
         let from = start_of(drawing, index);
-        let Move { to, course, .. } = drawing.moves[index];
+        // A move that is none has no length.
+        let step = drawing.moves.get(index);
+        let (to, course) = step.map_or((from, Course::Line), |step| (step.to, step.course));
         let rise = to[2] - from[2];
         match course {
             // `check` refuses splines.
@@ -195,10 +197,9 @@ impl Arc {
 
 /// Where `drawing.moves[index]` starts.
 pub(super) fn start_of(drawing: &Drawing, index: usize) -> Point {
-    match index.checked_sub(1) {
-        Some(before) => drawing.moves[before].to,
-        None => drawing.start,
-    }
+    let before = index.checked_sub(1);
+    let end = before.and_then(|before| drawing.moves.end(before));
+    end.unwrap_or(drawing.start)
 }
 
 pub(crate) fn norm(v: Point) -> f64 {

@@ -29,6 +29,17 @@ pub struct Segment {
     pub exit: f64,
 }
 
+/// What is kept of a segment: its length is that of the move, its speed at the end that of the next
+/// at the start.
+#[derive(Debug, Clone, Copy)]
+struct Packed {
+    index: usize,
+    start_s: f64,
+    start_mm: f64,
+    entry: f64,
+    peak: f64,
+}
+
 /// A segment's trapezoid: lengths and times of its three phases.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Phases {
@@ -63,7 +74,7 @@ impl Segment {
 pub struct Plan<'d> {
     pub(super) drawing: &'d Drawing,
     pub(super) acceleration: f64,
-    segments: Vec<Segment>,
+    segments: Vec<Packed>,
     duration_s: f64,
     length_mm: f64,
 }
@@ -78,15 +89,15 @@ impl<'d> Plan<'d> {
         limits.validate()?;
         geometry::check(drawing)?;
         let acceleration = limits.acceleration_mm_per_s2;
-        let mut segments = limit_speeds(drawing, limits);
-        look_ahead(&mut segments, acceleration);
+        let (mut segments, lengths) = limit_speeds(drawing, limits);
+        look_ahead(&mut segments, &lengths, acceleration);
         let (mut duration, mut length) = (Sum::default(), Sum::default());
-        for segment in &mut segments {
-            segment.start_s = duration.value();
-            segment.start_mm = length.value();
-            let phases = segment.phases(acceleration);
+        for (number, length_mm) in lengths.into_iter().enumerate() {
+            segments[number].start_s = duration.value();
+            segments[number].start_mm = length.value();
+            let phases = unpacked(&segments, number, length_mm).phases(acceleration);
             duration.add(phases.rising_s + phases.steady_s + phases.falling_s);
-            length.add(segment.length_mm);
+            length.add(length_mm);
         }
         Ok(Self {
             drawing,
@@ -95,6 +106,23 @@ impl<'d> Plan<'d> {
             duration_s: duration.value(),
             length_mm: length.value(),
         })
+    }
+
+    /// Number of the moves that have a length.
+    pub(super) fn count(&self) -> usize {
+        self.segments.len()
+    }
+
+    /// A move that has a length, and its curve.
+    pub(super) fn segment(&self, number: usize) -> (Segment, Curve) {
+        let curve = Curve::of_move(self.drawing, self.segments[number].index);
+        (unpacked(&self.segments, number, curve.length), curve)
+    }
+
+    /// The last segment that has begun at a time; the first before all.
+    pub(super) fn under_way(&self, time_s: f64) -> usize {
+        let begun = self.segments.partition_point(|s| s.start_s <= time_s);
+        begun.saturating_sub(1)
     }
 
     /// Time from start to end, in seconds.
@@ -111,8 +139,8 @@ impl<'d> Plan<'d> {
 
     /// The moves that have a length, in order.
     #[must_use]
-    pub fn segments(&self) -> &[Segment] {
-        &self.segments
+    pub fn segments(&self) -> impl ExactSizeIterator<Item = Segment> {
+        (0..self.count()).map(|number| self.segment(number).0)
     }
 
     /// Where the path starts.
@@ -144,18 +172,39 @@ impl<'d> Plan<'d> {
     }
 }
 
+/// A segment of this length.
+fn unpacked(segments: &[Packed], number: usize, length_mm: f64) -> Segment {
+    let Packed {
+        index,
+        start_s,
+        start_mm,
+        entry,
+        peak,
+    } = segments[number];
+    Segment {
+        index,
+        start_s,
+        start_mm,
+        length_mm,
+        entry,
+        peak,
+        exit: segments.get(number + 1).map_or(0.0, |next| next.entry),
+    }
+}
+
 /// The segments with the highest speed each allows by itself as peak and with the highest speed
-/// each junction allows by itself as entry.
-fn limit_speeds(drawing: &Drawing, limits: &MotionLimits) -> Vec<Segment> {
+/// each junction allows by itself as entry, and their lengths in mm.
+fn limit_speeds(drawing: &Drawing, limits: &MotionLimits) -> (Vec<Packed>, Vec<f64>) {
     let corner = limits.corner_mm_per_min / 60.0;
-    let mut segments: Vec<Segment> = Vec::with_capacity(drawing.moves.len());
+    let count = drawing.moves.len();
+    let (mut segments, mut lengths) = (Vec::with_capacity(count), Vec::with_capacity(count));
     let mut before: Option<(f64, Point)> = None;
     for (index, step) in drawing.moves.iter().enumerate() {
         let curve = Curve::of_move(drawing, index);
         if curve.length <= 0.0 {
             continue;
         }
-        let peak = nominal_speed(step, limits).min(curve.fastest(limits.acceleration_mm_per_s2));
+        let peak = nominal_speed(&step, limits).min(curve.fastest(limits.acceleration_mm_per_s2));
         let [first, last] = curve.directions();
         let entry = before.map_or(0.0, |(peak_before, direction)| {
             junction(distance(direction, first), corner)
@@ -163,17 +212,16 @@ fn limit_speeds(drawing: &Drawing, limits: &MotionLimits) -> Vec<Segment> {
                 .min(peak_before)
         });
         before = Some((peak, last));
-        segments.push(Segment {
+        segments.push(Packed {
             index,
             start_s: 0.0,
             start_mm: 0.0,
-            length_mm: curve.length,
             entry,
             peak,
-            exit: 0.0,
         });
+        lengths.push(curve.length);
     }
-    segments
+    (segments, lengths)
 }
 
 /// The speed at which the velocity changes by `corner` between two directions that are so far apart.
@@ -196,26 +244,23 @@ fn nominal_speed(step: &Move, limits: &MotionLimits) -> f64 {
 
 /// Lowers the junction speeds until each can be reached from the one before and left for the one
 /// after, then the peaks to what the lengths allow.
-fn look_ahead(segments: &mut [Segment], acceleration: f64) {
-    let gain = |segment: &Segment| 2.0 * acceleration * segment.length_mm;
-    let mut exit = 0.0;
-    for segment in segments.iter_mut().rev() {
-        segment.exit = exit;
-        segment.entry = segment.entry.min((exit * exit + gain(segment)).sqrt());
+fn look_ahead(segments: &mut [Packed], lengths: &[f64], acceleration: f64) {
+    let gain = |length_mm: f64| 2.0 * acceleration * length_mm;
+    let mut exit = 0f64;
+    for (segment, &length_mm) in segments.iter_mut().zip(lengths).rev() {
+        segment.entry = segment.entry.min((exit * exit + gain(length_mm)).sqrt());
         exit = segment.entry;
     }
-    let mut entry = 0.0;
-    for segment in segments {
+    let mut entry = 0f64;
+    for (number, &length_mm) in lengths.iter().enumerate() {
+        let reached = (entry * entry + gain(length_mm)).sqrt();
+        let exit = segments.get(number + 1).map_or(0.0, |next| next.entry);
+        let exit = exit.min(reached);
+        let reachable = ((entry * entry + exit * exit + gain(length_mm)) / 2.0).sqrt();
+        let segment = &mut segments[number];
         segment.entry = entry;
-        segment.exit = segment.exit.min((entry * entry + gain(segment)).sqrt());
-        entry = segment.exit;
-        let squares = segment.entry * segment.entry + segment.exit * segment.exit;
-        let reachable = ((squares + gain(segment)) / 2.0).sqrt();
-        segment.peak = segment
-            .peak
-            .min(reachable)
-            .max(segment.entry)
-            .max(segment.exit);
+        segment.peak = segment.peak.min(reachable).max(entry).max(exit);
+        entry = exit;
     }
 }
 

@@ -47,7 +47,7 @@ struct Current {
 
 impl<'p, 'd> Sampler<'p, 'd> {
     pub(super) fn new(plan: &'p Plan<'d>) -> Self {
-        let current = (!plan.segments().is_empty()).then(|| Current::enter(plan, 0));
+        let current = (plan.count() > 0).then(|| Current::enter(plan, 0));
         Self { plan, current }
     }
 
@@ -65,14 +65,11 @@ impl<'p, 'd> Sampler<'p, 'd> {
                 index: 0,
             };
         };
-        let segments = self.plan.segments();
         let mut number = current.number;
         if time_s < current.segment.start_s {
-            number = segments
-                .partition_point(|s| s.start_s <= time_s)
-                .saturating_sub(1);
+            number = self.plan.under_way(time_s);
         }
-        while number + 1 < segments.len() && time_s >= self.plan.end_s(number) {
+        while number + 1 < self.plan.count() && time_s >= self.plan.end_s(number) {
             number += 1;
         }
         if number != current.number {
@@ -93,7 +90,6 @@ impl Sampler<'_, '_> {
         let Some(mut current) = self.current else {
             return;
         };
-        let segments = self.plan.segments();
         loop {
             let Segment { start_s, .. } = current.segment;
             let quarters = current.curve.quarters();
@@ -106,7 +102,7 @@ impl Sampler<'_, '_> {
                     .filter(|t| (from_s..to_s).contains(t)),
             );
             let next = current.number + 1;
-            if next >= segments.len() || segments[next].start_s >= to_s {
+            if next >= self.plan.count() || self.plan.end_s(current.number) >= to_s {
                 break;
             }
             current = Current::enter(self.plan, next);
@@ -145,14 +141,15 @@ impl Current {
     }
 
     fn enter(plan: &Plan<'_>, number: usize) -> Self {
-        let segment = plan.segments()[number];
+        let (segment, curve) = plan.segment(number);
+        let step = plan.drawing.moves.get(segment.index);
         Self {
             number,
             segment,
             phases: segment.phases(plan.acceleration),
-            curve: Curve::of_move(plan.drawing, segment.index),
-            rapid: plan.drawing.moves[segment.index].rapid,
-            line: plan.drawing.moves[segment.index].line,
+            curve,
+            rapid: step.is_some_and(|step| step.rapid),
+            line: step.map_or(0, |step| step.line),
         }
     }
 

@@ -77,7 +77,8 @@ fn size<'a>(points: impl Iterator<Item = &'a (f64, f64)>) -> f64 {
 }
 
 fn is_rapid(job: &Job, one: &Beside) -> bool {
-    job.drawing.moves[one.piece].rapid
+    let step = job.drawing.moves.get(one.piece);
+    step.is_some_and(|step| step.rapid)
 }
 
 /// The job: what is drawn, and what is not.

@@ -71,15 +71,13 @@ impl From<Farthest> for FarthestRow {
 
 /// Every piece.
 pub fn pieces(job: &Job, measured: &Measured) -> Vec<PieceRow> {
-    let rows = measured.pieces.iter().map(|one| row(job, one));
+    let rows = measured.pieces.iter().filter_map(|one| row(job, one));
     rows.collect()
 }
 
-fn row(job: &Job, one: &PieceMeasured) -> PieceRow {
-    let (step, piece) = (
-        &job.drawing.moves[one.piece],
-        &job.program.pieces[one.piece],
-    );
+fn row(job: &Job, one: &PieceMeasured) -> Option<PieceRow> {
+    let step = job.drawing.moves.get(one.piece)?;
+    let piece = &job.program.pieces[one.piece];
     let from = match one.piece {
         0 => job.drawing.start,
         _ => job.program.pieces[one.piece - 1].to,
@@ -88,7 +86,7 @@ fn row(job: &Job, one: &PieceMeasured) -> PieceRow {
         (ticks.end() - ticks.start()) as f64 / job.settings.clock_hz as f64
     };
     let servos = one.servos.as_ref();
-    PieceRow {
+    Some(PieceRow {
         piece: one.piece,
         line: step.line,
         kind: match (step.rapid, &piece.course) {
@@ -107,7 +105,7 @@ fn row(job: &Job, one: &PieceMeasured) -> PieceRow {
         load: servos.map(|servos| servos.load.into()),
         left_by_correction: servos.map(|servos| servos.left_counts),
         servos_s: servos.map(|servos| seconds(&servos.ticks)),
-    }
+    })
 }
 
 /// Where something ended.

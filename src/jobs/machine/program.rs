@@ -169,7 +169,9 @@ impl Program {
         let mut arc_at = [0.0; 2];
         for (stretch, limit) in self.path.path.stretches.iter().zip(&limits) {
             let index = stretch.piece;
-            let (piece, step) = (&pieces[index], &drawing.moves[index]);
+            let (Some(piece), Some(step)) = (pieces.get(index), drawing.moves.get(index)) else {
+                continue;
+            };
             let from = match index {
                 0 => drawing.start,
                 _ => pieces[index - 1].to,

@@ -85,8 +85,8 @@ pub fn moves(drawing: &Drawing, settings: &Settings) -> Result<Moves, MoveError>
     let mut from = drawing.start;
     for step in &drawing.moves {
         match step.course {
-            Course::Arc { centre, clockwise } => planner.arc(from, step, centre, clockwise)?,
-            Course::Line | Course::Spline { .. } => planner.line(from, step)?,
+            Course::Arc { centre, clockwise } => planner.arc(from, &step, centre, clockwise)?,
+            Course::Line | Course::Spline { .. } => planner.line(from, &step)?,
         }
         from = step.to;
     }

@@ -52,7 +52,7 @@ proptest! {
         prop_assert_eq!((before.position, before.speed), (path.start, 0.0));
         for k in 1..=steps {
             let here = sampler.at(dt * f64::from(k));
-            let step = &path.moves[here.line];
+            let step = path.moves.get(here.line).unwrap();
             let feed = if step.rapid { 3000.0 } else { step.feed_mm_per_min.unwrap_or(600.0) };
             let fast = feed / 60.0;
             prop_assert!(here.speed <= fast * (1.0 + 1e-12));

@@ -25,7 +25,7 @@ pub fn warnings(drawing: &Drawing) -> Vec<String> {
 
 /// The moves, one a line: how, where to, with what feed.
 pub fn moves(drawing: &Drawing) -> Vec<String> {
-    let show = |step: &motion_rtl::input::Move| {
+    let show = |step: motion_rtl::input::Move| {
         let [x, y, z] = step.to;
         let how = match (step.rapid, step.course) {
             (true, Course::Line) => "rapid".to_owned(),

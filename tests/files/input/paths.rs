@@ -19,8 +19,16 @@ fn the_extension_chooses_the_reader() {
         let drawing = read_path(&path).unwrap();
         assert_eq!(drawing.file, path.display().to_string());
         assert_eq!(drawing.moves.len(), 1);
-        assert_eq!(drawing.moves[0].to, [1.0, 2.0, 0.0], "{extension}");
-        assert_eq!(drawing.moves[0].rapid, text.starts_with('G'), "{extension}");
+        assert_eq!(
+            drawing.moves.get(0).unwrap().to,
+            [1.0, 2.0, 0.0],
+            "{extension}"
+        );
+        assert_eq!(
+            drawing.moves.get(0).unwrap().rapid,
+            text.starts_with('G'),
+            "{extension}"
+        );
     }
 }
 

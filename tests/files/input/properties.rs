@@ -27,7 +27,7 @@ fn check(result: Result<Drawing, Fault>) -> Result<(), TestCaseError> {
     prop_assert!(!drawing.moves.is_empty());
     let within = |values: &[f64]| values.iter().all(|value| value.abs() <= REACH_MM);
     let mut from = drawing.start;
-    for step in drawing.moves {
+    for step in &drawing.moves {
         prop_assert!(within(&step.to), "{step:?}");
         prop_assert!(
             step.feed_mm_per_min
@@ -279,7 +279,7 @@ proptest! {
         let code = if clockwise { 2 } else { 3 };
         let signed = if turn > std::f64::consts::PI { -radius } else { radius };
         let read = |form: String| accept(gcode::read, &format!("G{code} X{x} Y{y} {form} F60"));
-        let centre = |drawing: &Drawing| match drawing.moves[0].course {
+        let centre = |drawing: &Drawing| match drawing.moves.get(0).unwrap().course {
             Course::Arc { centre: [x, y], clockwise: way } => (way, [x, y, 0.0]),
             Course::Line | Course::Spline { .. } => panic!("{drawing:?}"),
         };
@@ -314,6 +314,6 @@ fn a_million_points_are_read_to_their_end() {
     ] {
         let drawing = read("t", text.as_bytes()).unwrap();
         assert_eq!(drawing.moves.len(), count);
-        assert_eq!(drawing.moves[count - 1].to, end);
+        assert_eq!(drawing.moves.get(count - 1).unwrap().to, end);
     }
 }

@@ -149,13 +149,15 @@ fn drawing(to: Point, centre: [f64; 2], clockwise: bool) -> Drawing {
     Drawing {
         file: "x.ngc".to_owned(),
         start: [1.0, 2.0, 3.0],
-        moves: vec![Move {
+        moves: [Move {
             to,
             course: input::Course::Arc { centre, clockwise },
             rapid: false,
             feed_mm_per_min: Some(600.0),
             line: 7,
-        }],
+        }]
+        .into_iter()
+        .collect(),
         fourth: Vec::new(),
         zero_length: 0,
         warnings: Vec::new(),

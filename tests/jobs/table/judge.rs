@@ -31,7 +31,7 @@ pub fn drawing(start: Point, mut moves: Vec<Move>) -> Drawing {
         fourth: Vec::new(),
         zero_length: 0,
         start,
-        moves,
+        moves: moves.into_iter().collect(),
         warnings: Vec::new(),
     }
 }

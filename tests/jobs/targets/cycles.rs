@@ -137,9 +137,9 @@ fn counts_that_differ_between_the_axes_choose_the_master_but_not_the_feed() {
 #[test]
 fn feeds_come_from_the_move_and_rapid_ones_from_the_settings() {
     let mut d = lines(&[[50.0, 0.0], [100.0, 0.0], [150.0, 0.0]]);
-    d.moves[1].feed_mm_per_min = Some(1500.0);
-    d.moves[2].rapid = true;
-    d.moves[2].feed_mm_per_min = Some(1.0);
+    super::change(&mut d, 1, |step| step.feed_mm_per_min = Some(1500.0));
+    super::change(&mut d, 2, |step| step.rapid = true);
+    super::change(&mut d, 2, |step| step.feed_mm_per_min = Some(1.0));
     let made = compiled(&d, |settings| settings.rapid_mm_per_min = 12_000.0);
     let speeds = made
         .targets
@@ -235,8 +235,8 @@ fn a_start_away_from_the_origin_is_gone_to_with_the_pen_up() {
 #[test]
 fn z_is_left_out_and_said_so() {
     let mut d = lines(&[[1.0, 0.0], [1.0, 0.0], [2.0, 0.0]]);
-    d.moves[1].to[2] = 5.0;
-    d.moves[2].to[2] = 5.0;
+    super::change(&mut d, 1, |step| step.to[2] = 5.0);
+    super::change(&mut d, 2, |step| step.to[2] = 5.0);
     let made = compiled(&d, |_| ());
     assert_eq!(
         (made.targets.len(), made.dropped, made.moves_in_z),

@@ -21,11 +21,18 @@ fn drawing(moves: Vec<Move>) -> Drawing {
     Drawing {
         file: "d".into(),
         start: [0.0; 3],
-        moves,
+        moves: moves.into_iter().collect(),
         fourth: Vec::new(),
         zero_length: 0,
         warnings: Vec::new(),
     }
+}
+
+/// Changes one move.
+fn change(drawing: &mut Drawing, index: usize, change: impl FnOnce(&mut Move)) {
+    let mut moves: Vec<Move> = drawing.moves.iter().collect();
+    change(&mut moves[index]);
+    drawing.moves = moves.into_iter().collect();
 }
 
 fn lines(points: &[[f64; 2]]) -> Drawing {

@@ -13,14 +13,14 @@ fn what_cannot_be_played_is_refused() {
         compile(drawing, &settings).unwrap_err()
     };
     let mut d = lines(&[[1.0, 0.0], [2.0, 0.0]]);
-    d.moves[1].feed_mm_per_min = Some(18_000.5);
+    super::change(&mut d, 1, |step| step.feed_mm_per_min = Some(18_000.5));
     let feed = TargetError::Feed {
         line: 2,
         value: 18_000.5,
         most: 18_000.0,
     };
     assert_eq!(refusal(&d, &|_| ()), feed);
-    d.moves[1].feed_mm_per_min = Some(300_000.0);
+    super::change(&mut d, 1, |step| step.feed_mm_per_min = Some(300_000.0));
     let fastest = |settings: &mut Settings| settings.full_speed_mm_per_min = Some(300_000.0);
     let made = compiled(&d, fastest);
     assert_eq!(made.targets[1].profiles[0].counts_per_scan(), 1000.0);
@@ -47,7 +47,7 @@ fn what_cannot_be_played_is_refused() {
     assert_eq!(made.targets[0].x, 1 << 30);
 
     let mut many = circle(3e5, [0.0, 0.0], false);
-    many.moves[0].line = 7;
+    super::change(&mut many, 0, |step| step.line = 7);
     let fine = |settings: &mut Settings| {
         settings.chord_tolerance_mm = 1e-6;
         settings.counts_per_mm = [1000.0; 2];

@@ -144,7 +144,7 @@ fn splines_are_moves_where_they_are_asked_for() {
     }
     // A time is that of the spline: 60 mm/min over what it is long.
     let timed = read("G93 G5 X8 I0 J0 P0 Q0 F1").unwrap();
-    assert_eq!(timed.moves[0].feed_mm_per_min, Some(8.0));
+    assert_eq!(timed.moves.get(0).unwrap().feed_mm_per_min, Some(8.0));
     // A curve that goes nowhere is none; one that comes back is.
     let still = read("G1 X1 F60\nG5 X1 I0 J0 P0 Q0").unwrap();
     assert_eq!((still.moves.len(), still.zero_length), (1, 1));
@@ -196,7 +196,7 @@ fn a_nurbs_goes_through_its_curve_by_either_form() {
     // What follows it needs a motion of its own, and starts at its end.
     let after = |text: &str| format!("{}\n{text}", LOOP[0]);
     assert!(refuse(read, &after("X5")).starts_with("t:8: X, Y, Z: no G0, G1, G2 or G3 in force"));
-    let last = accept(read, &after("G91 G1 X5")).moves.pop().unwrap();
+    let last = accept(read, &after("G91 G1 X5")).moves.last().unwrap();
     assert!(near(last.to, [5.0, 0.0, 0.0]));
 }
 

@@ -84,7 +84,10 @@ fn a_system_by_g10_r_is_rotated_about_its_zero() {
 
 #[test]
 fn curves_turn_with_the_coordinates() {
-    let arc = &accept(read, "G10 L2 P1 X1 R90\nG0 X0 Y0\nG2 X10 Y0 I5 F60").moves[1];
+    let arc = accept(read, "G10 L2 P1 X1 R90\nG0 X0 Y0\nG2 X10 Y0 I5 F60")
+        .moves
+        .get(1)
+        .unwrap();
     let Course::Arc {
         centre: [x, y],
         clockwise: true,
@@ -99,7 +102,7 @@ fn curves_turn_with_the_coordinates() {
         "G0 X0.1 Y0.2\nG68 X1 Y1 R30\nX0.7 Y0.7\nG2 X0.7 Y0.7 Z3 I2 F60",
     ] {
         let drawing = accept(read, text);
-        let [.., before, circle] = drawing.moves.as_slice() else {
+        let [.., before, circle] = drawing.moves.iter().collect::<Vec<_>>()[..] else {
             panic!("{drawing:?}");
         };
         assert_eq!(circle.to[..2], before.to[..2], "{text}");

@@ -294,6 +294,6 @@ fn a_feed_by_inverse_time_is_that_of_the_length() {
     );
     assert!(refuse(read, "G93 G1 X1 F1\nX2").starts_with("t:2: F: missing under G93"));
     let turn = accept(read, "G93 G2 I1 F1");
-    let feed = turn.moves[0].feed_mm_per_min.unwrap();
+    let feed = turn.moves.get(0).unwrap().feed_mm_per_min.unwrap();
     assert!((feed - std::f64::consts::TAU).abs() < 1e-9);
 }

@@ -130,7 +130,7 @@ proptest! {
         }
         let chords = (sweep.abs() + chord - 1) / chord;
         prop_assert_eq!(drawing.moves.len(), chords as usize);
-        let end = drawing.moves[drawing.moves.len() - 1].to;
+        let end = drawing.moves.get(drawing.moves.len() - 1).unwrap().to;
         let (sin, cos) = f64::from(sweep).to_radians().sin_cos();
         let wanted = [
             centre[0] - centre[0] * cos + centre[1] * sin,

@@ -12,7 +12,7 @@ const SIZE: &str = "SI0.25,0.5;";
 /// Where the pen is after a text: the end of a short stroke from there, less the stroke.
 fn pen_after(text: &str) -> (f64, f64) {
     let drawing = accept(read, &format!("{SIZE}{text};PD;PR4000,0"));
-    let [.., end] = drawing.moves.as_slice() else {
+    let [.., end] = drawing.moves.iter().collect::<Vec<_>>()[..] else {
         panic!("{text}");
     };
     let [x, y] = [end.to[0] * 40.0 - 4000.0, end.to[1] * 40.0].map(|units| units.round());
@@ -24,7 +24,7 @@ fn bounds(text: &str) -> [f64; 4] {
     let drawing = accept(read, &format!("{SIZE}{text}"));
     let mut bounds = [f64::MAX, f64::MIN, f64::MAX, f64::MIN];
     let mut from = drawing.start;
-    for Move { to, rapid, .. } in drawing.moves {
+    for Move { to, rapid, .. } in &drawing.moves {
         for end in [from, to].iter().filter(|_| !rapid) {
             let [x, y] = [end[0] * 40.0, end[1] * 40.0].map(|units| units.round() + 0.0);
             bounds = [
@@ -143,7 +143,7 @@ fn labels_hold_any_bytes() {
         warnings(&drawing),
         ["t:1: characters that are not in ASCII stay blank in labels (2 times)"]
     );
-    let to = drawing.moves[drawing.moves.len() - 1].to;
+    let to = drawing.moves.get(drawing.moves.len() - 1).unwrap().to;
     assert_eq!(to, [1.0, 0.0, 0.0]);
 }
 

@@ -94,6 +94,10 @@ fn lines_are_counted_as_an_editor_does() {
         ("IN;\rSP1;\rPD9,9;", 3),
         ("IN;\n\n\nPD\n9,9;", 5),
     ] {
-        assert_eq!(accept(read, text).moves[0].line, line, "{text:?}");
+        assert_eq!(
+            accept(read, text).moves.get(0).unwrap().line,
+            line,
+            "{text:?}"
+        );
     }
 }

@@ -16,7 +16,8 @@ use super::common::accept;
 /// What a text draws, in plotter units rounded to a hundredth: U where the pen is up on the way, D
 /// where it is down.
 fn path(text: &str) -> String {
-    let shown = accept(read, text).moves.into_iter().map(|step| {
+    let drawing = accept(read, text);
+    let shown = drawing.moves.iter().map(|step| {
         let [x, y, _] = step.to.map(|mm| (mm * 4000.0).round() / 100.0 + 0.0);
         format!("{}{x},{y}", if step.rapid { "U" } else { "D" })
     });
