@@ -125,6 +125,18 @@ impl Coverage {
         (all as u64 - u64::from(untoggled), all as u64)
     }
 
+    /// Number of signals; a memory is one.
+    pub fn signals(&self) -> usize {
+        self.signals.len()
+    }
+
+    /// Returns the signals that never changed, in the order of the walk.
+    pub fn still(&self) -> impl Iterator<Item = Untoggled> {
+        let all = |signal: &Untoggled| u64::MAX >> (64 - signal.width);
+        self.untoggled()
+            .filter(move |signal| signal.bits == all(signal))
+    }
+
     /// The signals with bits that were always low or always high, in the order of the walk.
     pub fn untoggled(&self) -> impl Iterator<Item = Untoggled> {
         let seen = self.signals.iter().zip(&self.seen);

@@ -1,3 +1,4 @@
+use super::records::Records;
 use super::{Coverage, Stimulus};
 use crate::engine::Watch;
 use crate::hdl::{Described, LeafView as View, Model, RunError};
@@ -30,6 +31,9 @@ pub struct Driven {
 /// what went into it as a [`StimulusFile`](crate::trace::StimulusFile): with both, another form of
 /// the circuit can be held against this one, tick by tick. The same [`Drive`] gives the same bytes.
 ///
+/// Records, targets and steps are written whole and started, in turns with ticks in which every port
+/// of a [`Stimulus`] is random. [`Coverage::still`] names the signals that never changed.
+///
 /// # Errors
 /// A writer failed; a name that is used twice in a scope or that waves cannot carry.
 pub fn drive(
@@ -61,17 +65,24 @@ impl Drive {
         let mut coverage = Coverage::of(model.declarations());
         let mut engine = model.engine(Watch::All);
         let mut random = Stimulus::new(self.seed);
+        let mut records = Records::of(model.declarations(), model.flat().inputs.len(), self.seed);
         let mut resets = 0;
         for tick in 0..self.ticks {
             let rst = self.resets && random.reset();
             resets += u64::from(rst);
             random.apply(&mut engine);
+            if let Some(records) = &mut records {
+                records.apply(&mut engine);
+            }
             engine.settle();
             lines.tick(&engine, rst, stimulus)?;
             dump.tick(tick, View::of(&engine))?;
             coverage.tick(tick, View::of(&engine));
             match rst {
-                true => engine.reset(),
+                true => {
+                    engine.reset();
+                    records.iter_mut().for_each(Records::restart);
+                }
                 false => engine.edge(),
             }
         }

@@ -64,6 +64,7 @@ mod invariant;
 mod lockstep;
 mod pair;
 mod reach;
+mod records;
 mod search;
 mod searching;
 mod specified;

@@ -198,7 +198,7 @@ impl Kind {
 }
 
 /// A number of up to `digits` binary digits, every count of digits as likely.
-fn magnitude(random: &mut Random, digits: u64) -> u64 {
+pub(super) fn magnitude(random: &mut Random, digits: u64) -> u64 {
     let digits = 1 + random.word() % digits;
     random.word() >> (64 - digits)
 }

@@ -5,7 +5,7 @@ use super::export::Export;
 use super::files::Files;
 use super::{Failure, print};
 use clap::Args;
-use motion_rtl::check::Drive;
+use motion_rtl::check::{Drive, Untoggled};
 use motion_rtl::hdl::Role;
 use motion_rtl::trace::Clock;
 use motion_rtl::verilog::Verilog;
@@ -20,7 +20,8 @@ pub struct Arguments {
     /// Where the files go.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Beside the circuit a testbench, a stimulus of so many ticks, and the golden waves of it.
+    /// Beside the circuit a testbench, a stimulus of so many ticks, the golden waves of it, and a list
+    /// of the signals that never changed in them.
     #[arg(long, value_name = "TICKS", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(2..=100_000_000))]
     testbench: Option<u64>,
     /// Clock of the golden waves.
@@ -67,12 +68,20 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
         files.push(waves);
         files.push(stimulus);
         let (seen, bits) = driven.coverage.bits();
+        let still: Vec<_> = driven.coverage.still().collect();
+        let lines = still.iter().map(|signal| match signal.width {
+            1 => format!("{}\n", signal.path),
+            width => format!("{} [{}:0]\n", signal.path, width - 1),
+        });
+        files.write("still", &lines.collect::<String>())?;
         // Writing to a string does not fail.
         let _ = writeln!(
             text,
             "{ticks} ticks of seed {}, {} of them with rst; {seen} of {bits} bits were 0 and 1",
             arguments.seed, driven.resets
         );
+        let signals = driven.coverage.signals();
+        let _ = writeln!(text, "{}", never_changed(&still, signals, circuit.name()));
         let _ = writeln!(
             text,
             "a word of the stimulus, from bit 0: {}",
@@ -83,6 +92,24 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
         let _ = writeln!(text, "{path}");
     }
     print(&text)
+}
+
+/// Signals that are named beside their count.
+const NAMED: usize = 4;
+
+/// Says which of so many signals never changed.
+fn never_changed(still: &[Untoggled], signals: usize, name: &str) -> String {
+    if still.is_empty() {
+        return format!("each of {signals} signals changed");
+    }
+    let count = still.len();
+    let named = still.iter().take(NAMED).map(|signal| &*signal.path);
+    let named = named.collect::<Vec<_>>().join(", ");
+    let more = match count.checked_sub(NAMED) {
+        None | Some(0) => String::new(),
+        Some(more) => format!(" and {more} more, which {name}.still lists"),
+    };
+    format!("{count} of {signals} signals never changed: {named}{more}")
 }
 
 fn clock(arguments: &Arguments) -> Result<Clock, Failure> {

@@ -25,19 +25,49 @@ fn a_module_each_is_written_and_named() {
 fn a_testbench_comes_with_its_stimulus_and_golden_waves() {
     let bench = Bench::new();
     let said = bench.succeed(&verilog("enable_counter", &TESTBENCH));
-    let files = [".v", "_tb.v", ".f", ".vcd", ".stimulus"];
+    let files = [".v", "_tb.v", ".f", ".vcd", ".stimulus", ".still"];
     let files = files.map(|end| format!("v/enable_counter{end}"));
     let (stimulus, names) = said.split_at(said.find("v/").unwrap());
     assert_eq!(
         stimulus,
         "200 ticks of seed 1, 6 of them with rst; 1 of 13 bits were 0 and 1\n\
+         3 of 4 signals never changed: enable_counter.count, enable_counter.next, enable_counter.enable\n\
          a word of the stimulus, from bit 0: period [3:0], rst [4]\n"
     );
     assert_eq!(names, files.join("\n") + "\n");
     let waves = bench.read(&files[3]);
     assert!(waves.contains("period 10 x 100 ns"), "{}", &waves[..300]);
     assert_eq!(bench.read(&files[4]).lines().count(), 200);
-    assert_eq!(bench.names().len(), 6);
+    assert_eq!(bench.names().len(), 7);
+}
+
+/// A few are named, all are in a file.
+#[test]
+fn signals_that_never_change_are_told() {
+    let bench = Bench::new();
+    let said = bench.succeed(&verilog(
+        "arc_generator",
+        &["--testbench", "20000", "--out", "v"],
+    ));
+    let line = said.lines().nth(1).unwrap();
+    assert_eq!(
+        line,
+        "12 of 438 signals never changed: arc_generator.engine_x.value.load_part, \
+         arc_generator.engine_x.d4.step, arc_generator.engine_x.d4.by_whole, \
+         arc_generator.engine_x.d4.by_part and 8 more, which arc_generator.still lists"
+    );
+    let all = bench.read("v/arc_generator.still");
+    assert_eq!(all.lines().count(), 12, "{all}");
+    assert!(
+        all.contains("\narc_generator.engine_x.d4.by_whole [39:0]\n"),
+        "{all}"
+    );
+    let said = bench.succeed(&verilog(
+        "unit_law",
+        &["--testbench", "20000", "--out", "w"],
+    ));
+    assert!(said.contains("\neach of 22 signals changed\n"), "{said}");
+    assert_eq!(bench.read("w/unit_law.still"), "");
 }
 
 /// Ports that stand in bundles too.
