@@ -372,7 +372,7 @@ fn a_log_of_zeros_takes_little_memory() {
     let bench = Bench::new();
     let file = std::fs::File::create(bench.path("z.csv")).unwrap();
     file.set_len(250_000_000).unwrap();
-    let script = "ulimit -v 400000; exec \"$0\" \"$@\"";
+    let script = "ulimit -v 700000; exec \"$0\" \"$@\"";
     let mut command = assert_cmd::Command::new("sh");
     command.args(["-c", script, super::support::PROGRAM, "run", "z.csv"]);
     let done = command.current_dir(bench.path("")).assert();
