@@ -281,3 +281,24 @@ fn measures_are_those_of_all_samples_at_once() {
         .collect();
     assert_eq!(arc.speed_deviation, largest(&deviations));
 }
+
+/// On either side as many samples as a blend has, and the joint itself.
+#[test]
+fn a_joint_is_measured_with_the_samples_next_to_it() {
+    let path = path();
+    let commands = played(&path);
+    let joints = |commands: &[[i64; 3]]| Measured::of(&path, COUNTS, commands).unwrap().joints;
+    let (all, most) = (joints(&commands), path.timing.blend_samples);
+    let arc = path.segments[1];
+    // Into the arc and out of it, which is longer than a blend.
+    for (joint, within, beyond) in [
+        (0, arc.first_sample + most, arc.first_sample + most + 1),
+        (1, arc.end() - most, arc.end() - most - 1),
+    ] {
+        for (sample, counts) in [(within, true), (beyond, false)] {
+            let mut moved = commands.clone();
+            moved[sample as usize][1] += 20;
+            assert_eq!(joints(&moved)[joint] != all[joint], counts, "{sample}");
+        }
+    }
+}
