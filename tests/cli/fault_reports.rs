@@ -22,7 +22,7 @@ fn all_faults_of_a_part_program_are_told() {
               |
             3 | G1 X[2*#<no>] Y3
               |    ^^^^^^^^^
-            error: p.ngc:4: G41: cutter compensation changes the path; allowed: G0 to G5 G5.1 to G5.3 G6.2 G8 G10 G11 G15 G17 to G21 G28 G30 G38.2 to G38.5 G40 G43 G49 G52 to G59.3 G61 G64 G69 G73 G80 to G86 G89 to G94 G97 to G99
+            error: p.ngc:4: G41: cutter compensation changes the path; allowed: G0 to G5 G5.1 to G5.3 G6.2 G8 G10 G11 G15 to G21 G28 G30 G38.2 to G38.5 G40 G43 G49 G52 to G59.3 G61 G64 G68 G69 G73 G80 to G86 G89 to G94 G97 to G99
               |
             4 | G41 D1
               | ^^^
