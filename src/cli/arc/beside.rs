@@ -304,3 +304,45 @@ pub fn rows(job: &Job, played: &Played, figures: &Figures) -> Result<Vec<Row>, R
         ),
     ])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::source::{Input, Source};
+    use motion_rtl::jobs::arc_generator::beside;
+    use motion_rtl::scenario::Scenario;
+
+    /// Every arc of the flange against its commands, all at once.
+    #[test]
+    fn every_arc_is_measured_over_all_of_its_commands() {
+        let input = Input {
+            input: Some("waves/flange.toml".into()),
+            ..Input::default()
+        };
+        let source = Source::read(&input).unwrap();
+        let Scenario::ArcGenerator(scenario) = source.loaded.scenario.clone() else {
+            panic!("another circuit");
+        };
+        let job = Job::prepare(source, &scenario).unwrap();
+        let (planned, all) = runs(&job, Method::new).unwrap();
+        let circuit = Conventional::new(job.settings.rounding);
+        let played = beside::play(&circuit, &all, job.sample_ticks, &mut ()).unwrap();
+        let measured = Beside::run(&job, Method::new, None).unwrap();
+        assert!(measured.arcs.len() > 2 && measured.arcs.len() == planned.len());
+        assert_eq!(measured.samples, played.commands.len() as u64);
+        let mut commands = played.commands.iter();
+        for (arc, planned) in measured.arcs.iter().zip(&planned) {
+            let own = commands.by_ref().take(planned.steps() as usize + 1);
+            let points: Vec<Point> = own.map(|command| job.mm(command.counts)).collect();
+            let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+            let exact = planned.method.samples().map(|(exact, _)| exact);
+            let errors = points.iter().zip(exact).map(|(a, b)| distance(*a, b));
+            assert_eq!(arc.error, largest(&mut { errors }));
+            let off = points
+                .iter()
+                .map(|point| planned.circle.off(*point)[0].abs());
+            assert_eq!(arc.radius_error, largest(&mut { off }));
+            assert_eq!(measured.radius_error(arc.segment), arc.radius_error);
+        }
+    }
+}

@@ -138,3 +138,28 @@ pub fn write(rows: &[Row], text: &mut String) -> fmt::Result {
     text.push('\n');
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_two_paths_each_figure_is_the_worse() {
+        let jolt = |speed_change, moving_mm, rest_mm| Jolt {
+            speed_change,
+            vibration: Vibration { moving_mm, rest_mm },
+        };
+        for (one, other) in [
+            (jolt(3.0, 1.0, 4.0), jolt(2.0, 5.0, 1.0)),
+            (jolt(2.0, 5.0, 4.0), jolt(3.0, 1.0, 1.0)),
+        ] {
+            let worst = one.max(other);
+            assert_eq!(worst.speed_change, 3.0);
+            let vibration = Vibration {
+                moving_mm: 5.0,
+                rest_mm: 4.0,
+            };
+            assert_eq!(worst.vibration, vibration);
+        }
+    }
+}

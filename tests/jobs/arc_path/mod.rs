@@ -5,6 +5,7 @@ mod bounds;
 mod circles;
 mod conventional;
 mod drawings;
+mod joints;
 mod measures;
 mod paths;
 mod products;
