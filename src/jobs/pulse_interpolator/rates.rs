@@ -70,6 +70,11 @@ mod tests {
         };
         assert_eq!(x, expected(1000.0, 2000.0, 2));
         assert_eq!(y, expected(2500.0, 5000.0, 1));
+        // The largest may be backwards.
+        let [x, _] = rates("0,500,100,0,0,0\n1,500,50,1,0,0\n")[..] else {
+            panic!("two axes");
+        };
+        assert_eq!(x, expected(1000.0, 1500.0, 1));
         // The end is a change too: to rest, of a rate that came in two.
         assert_eq!(
             rates("0,500,100,0,0,0\n1,500,50,0,0,0\n"),

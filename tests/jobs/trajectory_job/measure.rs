@@ -154,6 +154,29 @@ fn what_is_beside_the_path_is_measured_so() {
     }
 }
 
+/// The largest of either sign, of each axis, in the first, a middle and the last period.
+#[test]
+fn torque_and_distance_from_the_model_have_two_signs() {
+    let machine = [TwoMassParameters::default(); 2];
+    let path = &pieces()[..2];
+    let program = Program::of([0.0; 3], path, &settings(), &machine, &Widths::FULL).unwrap();
+    for period in [0, 450, 900] {
+        for sign in [1, -1] {
+            let mut played = beside(&program, [0.0; 3], 1.5);
+            played.periods[period].torque = [sign * 5000, sign * 6000, 0, 0];
+            for axis in 0..2 {
+                let own = played.periods[period].model[axis] / COUNT as i64;
+                played.periods[period].motor[axis] = own + sign * (700 + 100 * axis as i64);
+            }
+            let measured = Measured::of(&program, &played).unwrap();
+            assert_eq!(measured.torque, [5000, 6000]);
+            for (off, wanted) in measured.off_model_mm.iter().zip([0.7, 0.8]) {
+                assert!((off - wanted).abs() < 0.001, "{sign} in {period}: {off}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_run_without_periods_has_no_measures() {
     let machine = [TwoMassParameters::default(); 2];
