@@ -257,7 +257,8 @@ impl Log<'_> {
     }
 
     fn too_short(&self, samples: usize) -> Fault {
-        let problem = format!("{samples} samples in it");
+        let plural = if samples == 1 { "" } else { "s" };
+        let problem = format!("{samples} sample{plural} in it");
         self.fault(0, "file", problem, "a log of 2 samples or more")
     }
 

@@ -43,7 +43,7 @@ pub(super) struct Block {
 impl Block {
     /// Reads a cleaned line into itself.
     ///
-    /// An E directly behind the number of a word, before a whole number, is an exponent or an axis.
+    /// An E directly behind the value of a word, before a whole number, is an exponent or an axis.
     /// Where there is a second E, which no axis has, it is an exponent. Else it is read as an axis,
     /// and [`Block::take_unclear`] tells of it.
     ///
@@ -183,10 +183,7 @@ impl Block {
     /// Keeps in mind an E behind a number that makes another value of it if it is an exponent.
     fn look_for_exponent(&mut self, letter: u8, begin: usize, value: f64, scanner: &Scanner<'_>) {
         let written = scanner.since(begin);
-        let literal = written
-            .bytes()
-            .all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'+' | b'-'));
-        let Some(length) = scanner.exponent().filter(|_| literal) else {
+        let Some(length) = scanner.exponent() else {
             return;
         };
         let exponent = scanner.rest().get(..length).unwrap_or_default();

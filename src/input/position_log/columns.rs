@@ -395,7 +395,7 @@ mod tests {
             (
                 "left,right\n1,2\n1,2\n",
                 Columns::default(),
-                "l.csv: file: 1 samples in it; allowed: a log of 2 samples or more",
+                "l.csv: file: 1 sample in it; allowed: a log of 2 samples or more",
             ),
         ] {
             assert_eq!(refuse(text, &columns), fault, "{text:?}");

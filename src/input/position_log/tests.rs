@@ -124,7 +124,7 @@ fn what_cannot_be_used_is_refused_with_its_line() {
         ),
         (
             "t,c\n1,2\n",
-            "l.csv: file: 1 samples in it; allowed: a log of 2 samples or more",
+            "l.csv: file: 1 sample in it; allowed: a log of 2 samples or more",
         ),
         (
             "7\n8\n",

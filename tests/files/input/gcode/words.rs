@@ -236,7 +236,7 @@ fn an_exponent_is_read_whole_or_refused() {
         ("G92E0\nG0X1Y0E3", "rapid to 1 0 0"),
         ("G1E5X1", "line to 1 0 0"),
         ("#<a1 e5>=7\nG0 X#<a1e5>", "rapid to 7 0 0"),
-        ("#1=1\nG0 X#1E3", "rapid to 1 0 0"),
+        ("#1=1\nG0 X#1 E3", "rapid to 1 0 0"),
         ("G0 X[1 EQ 1]", "rapid to 1 0 0"),
     ] {
         assert_eq!(moves(&accept(read, text)), [expected], "{text}");
@@ -250,6 +250,8 @@ fn an_exponent_is_read_whole_or_refused() {
         ("G2 X5 I2.5 J1.2e-15", "t:1: J: 1.2E-15: an exponent"),
         ("G1 X5 F3000E-5", "t:1: F: 3000E-5: an exponent"),
         ("G1 X1E5", "t:1: X: 1E5: an exponent"),
+        ("#1=5\nG1 X#1e2", "t:2: X: #1E2: an exponent"),
+        ("#1=5\nG1 X[#1]E2", "t:2: X: [#1]E2: an exponent"),
         ("G0 X[1 E5]", "t:1: expression: no operator at 'E5]'"),
         ("G0 X[1e]", "t:1: expression: no operator at 'E]'"),
         ("G0 X1e", "t:1: E: a letter without its number"),
