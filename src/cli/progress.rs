@@ -10,9 +10,8 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 use std::thread::{self, sleep};
 use std::time::{Duration, Instant};
 
-/// A run that is estimated to take less is not announced: one of some two seconds, as the estimate is
-/// for a fast machine.
-const LONG_S: f64 = 1.0;
+/// A run that is estimated to take less is not announced.
+const LONG_S: f64 = 2.0;
 /// Time from one line to the next where there is no terminal, and between two looks at a bar.
 const LINES: Duration = Duration::from_secs(10);
 const LOOKS: Duration = Duration::from_millis(200);
