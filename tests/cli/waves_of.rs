@@ -27,6 +27,7 @@ fn names(summary: &Value, rows: &str) -> Vec<String> {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn every_system_that_a_summary_names_can_be_had() {
     let bench = bench();
     for (arguments, rows, [_, compared]) in runs() {
@@ -212,6 +213,7 @@ fn end(summary: &Value, axes: &[&str]) -> Vec<i64> {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn the_last_values_of_the_waves_are_those_of_the_summary() {
     let bench = bench();
     let all =
