@@ -60,7 +60,7 @@ pub(super) fn commit(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
     );
 }
 
-/// Whether a block is in more than one part.
+/// Tells if a block is in more than one part.
 fn long(block: &Block, part: usize) -> bool {
     let ends = block.outputs.len() + block.registers.len() + block.writes.len();
     block.steps.len() + ends > part

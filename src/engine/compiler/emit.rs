@@ -27,7 +27,7 @@ type Marks = Vec<(Slot, u64)>;
 /// What has changed, by whom it tells.
 pub(super) type Changes = BTreeMap<Marks, Word>;
 
-/// What is known of a slot.
+/// Knowledge of a slot: a word, and how long it holds.
 #[derive(Clone, Copy, Default)]
 struct Known {
     /// Since which block, and which part of it.
@@ -42,7 +42,7 @@ pub(super) struct Emitter<'f> {
     cold: Vec<u64>,
     base: Value,
     constants: FxHashMap<Slot, u64>,
-    /// What a slot holds for the block under way, where its number is that of the block.
+    /// Words of slots that hold in the block under way, if their number is that of the block.
     known: Vec<Known>,
     epoch: u32,
     /// The part of the block.

@@ -217,7 +217,7 @@ fn a_slab_of_another_length_is_left_alone() {
     assert!(code.size > 0);
 }
 
-/// So many registers of one circuit, each of which takes a mixture of others; all of them are seen.
+/// A circuit of `count` registers that each take a mixture of others, all of them watched.
 fn registers(count: u32) -> Flat {
     let node = |op, width| Node {
         op,
