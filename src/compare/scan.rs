@@ -208,7 +208,7 @@ impl<'a> Words<'a> {
     }
 }
 
-/// What there is to know of the values.
+/// Facts about the values, collected while they are read.
 #[derive(Default)]
 struct Body {
     /// The last word is a time.

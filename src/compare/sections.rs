@@ -16,7 +16,7 @@ const BLACKOUT: u8 = 2;
 const GEOMETRY: u8 = 3;
 /// The whole file, packed by gzip.
 const WRAPPER: u8 = 254;
-/// What stands before the packed bytes of a stream of gzip that has no name and no comment.
+/// Header of a gzip stream without a name and without a comment.
 const GZIP: [u8; 4] = [0x1f, 0x8b, 8, 0];
 const GZIP_HEADER: usize = 10;
 

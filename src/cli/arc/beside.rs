@@ -95,7 +95,7 @@ pub struct Arc {
     pub jolt: Jolt,
 }
 
-/// The same while its commands come.
+/// Figures of an arc whose commands are still coming.
 struct UnderWay {
     error: f64,
     radius_error: f64,

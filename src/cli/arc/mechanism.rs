@@ -53,7 +53,7 @@ fn row(job: &Job, method: &'static str, jolt: Jolt) -> Row {
     }
 }
 
-/// What the commands of a path do to the machine.
+/// Jolts that the commands of a path give to the machine.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Jolt {
     /// Largest change of speed from one sample to the next in mm/s.
@@ -76,7 +76,7 @@ impl Jolt {
     }
 }
 
-/// The same of commands that come.
+/// Measures a [`Jolt`] from commands as they come.
 #[derive(Debug)]
 pub struct Jolting {
     sample_s: f64,

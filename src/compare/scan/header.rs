@@ -17,7 +17,7 @@ pub(super) struct Header<'a> {
     pub ours: bool,
     /// Paths of the ports out, where a comment names them.
     pub ports_out: Option<Vec<String>>,
-    /// What the reader panics at or takes for something else: a second `$date` or `$version`, scopes
+    /// Text that makes the reader panic or that it misreads: a second `$date` or `$version`, scopes
     /// without a name, variables of no width.
     pub blank: Vec<Range<usize>>,
     /// Variables among that.
