@@ -181,6 +181,7 @@ pub mod files;
 pub mod hdl;
 pub mod input;
 pub mod jobs;
+pub mod nearest;
 pub mod path;
 pub mod picture;
 pub mod plan;

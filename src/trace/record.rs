@@ -5,6 +5,7 @@ use crate::hdl::{Declaration, Described, LeafView as View, RunError};
 use std::collections::HashMap;
 use std::io;
 use std::ops::{ControlFlow, Range};
+use strsim::osa_distance;
 
 /// Keeps what a run does in memory: a column of values for every chosen signal.
 ///
@@ -204,8 +205,8 @@ pub(super) fn near<'a>(wanted: &str, candidates: impl Iterator<Item = &'a str>) 
     let mut ranked: Vec<_> = candidates
         .map(|path| {
             (
-                distance(wanted_last, last(path)),
-                distance(wanted, path),
+                osa_distance(wanted_last, last(path)),
+                osa_distance(wanted, path),
                 path,
             )
         })
@@ -218,30 +219,12 @@ pub(super) fn near<'a>(wanted: &str, candidates: impl Iterator<Item = &'a str>) 
         .collect()
 }
 
-/// The number of characters to insert, remove or replace (Levenshtein).
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn the_nearest_names_come_first() {
-        assert_eq!(distance("kitten", "sitting"), 3);
-        assert_eq!(distance("", "abc"), 3);
         let paths = [
             "top.count",
             "top.a.counter",

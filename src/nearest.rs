@@ -1,0 +1,40 @@
+//! The name that was meant by a mistyped one.
+
+/// Returns the name nearest to `wanted`, if at most a third of its letters differ. Case and the
+/// difference between `-` and `_` do not count; two swapped letters are one difference.
+pub fn nearest<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let plain = |name: &str| name.to_lowercase().replace('-', "_");
+    let wanted = plain(wanted);
+    let distances = names.into_iter().map(|name| {
+        let distance = strsim::osa_distance(&wanted, &plain(name));
+        (distance, name)
+    });
+    let (distance, name) = distances.min_by_key(|(distance, _)| *distance)?;
+    let most = name.chars().count().max(wanted.chars().count()) / 3;
+    (distance <= most).then_some(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_third_of_the_letters_may_differ() {
+        let names = ["position", "speed", "step", "cks", "x"];
+        let of = |wanted| nearest(wanted, names);
+        assert_eq!(of("postion"), Some("position"));
+        assert_eq!(of("psoition"), Some("position"));
+        assert_eq!(of("Step"), Some("step"));
+        assert_eq!(of("spede"), Some("speed"));
+        assert_eq!(of("ck"), Some("cks"));
+        assert_eq!(of("y"), None);
+        assert_eq!(of("voltage"), None);
+        assert_eq!(nearest("lead-angle", ["lead_angle"]), Some("lead_angle"));
+        assert_eq!(nearest("a", []), None);
+    }
+
+    #[test]
+    fn of_equally_near_names_the_first_counts() {
+        assert_eq!(nearest("rata", ["rate", "data"]), Some("rate"));
+    }
+}
