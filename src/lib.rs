@@ -86,7 +86,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `rtl_notes/conventions.md` walks through all of it, up to the note and the catalogue.
+//! `rtl_notes/conventions/add_a_circuit.md` walks through all of it, up to the note and the catalogue.
 //!
 //! # Compose two
 //!
@@ -192,11 +192,23 @@ pub mod settings;
 pub mod trace;
 pub mod verilog;
 
-/// The code in the note on conventions is compiled and run as a test.
+/// The code in the notes on conventions is compiled and run as tests.
 #[cfg(doctest)]
 #[allow(rustdoc::invalid_codeblock_attributes, reason = "charts stand in it")]
-#[doc = include_str!("../rtl_notes/conventions.md")]
-pub struct Conventions;
+pub mod conventions {
+    #[doc = include_str!("../rtl_notes/conventions/README.md")]
+    pub struct Readme;
+    #[doc = include_str!("../rtl_notes/conventions/add_a_circuit.md")]
+    pub struct AddACircuit;
+    #[doc = include_str!("../rtl_notes/conventions/composites.md")]
+    pub struct Composites;
+    #[doc = include_str!("../rtl_notes/conventions/if_you_know_verilog.md")]
+    pub struct IfYouKnowVerilog;
+    #[doc = include_str!("../rtl_notes/conventions/memories.md")]
+    pub struct Memories;
+    #[doc = include_str!("../rtl_notes/conventions/running.md")]
+    pub struct Running;
+}
 
 /// The code in the note on the golden model is compiled as a test.
 #[cfg(doctest)]

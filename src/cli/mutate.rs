@@ -122,7 +122,7 @@ pub fn mutate(arguments: &Arguments) -> Result<(), Failure> {
 /// The charts of the notes that ship, each with the note's name.
 fn shipped() -> Result<Vec<(String, Chart)>, Failure> {
     let mut charts = Vec::new();
-    for (name, text) in NOTES {
+    for &(name, text) in NOTES {
         charts.extend(of_note(name, text)?);
     }
     Ok(charts)

@@ -70,10 +70,16 @@ struct Unit {
 /// Every block of shell commands, and every command within the text that no block has.
 fn units() -> Vec<Unit> {
     let mut documents = vec!["README.md".to_owned()];
-    for entry in fs::read_dir(Path::new(CHECKOUT).join("rtl_notes")).unwrap() {
-        let name = entry.unwrap().file_name().into_string().unwrap();
-        if name.ends_with(".md") && name != "golden_model.md" {
-            documents.push(format!("rtl_notes/{name}"));
+    let mut folders = vec!["rtl_notes".to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(Path::new(CHECKOUT).join(&folder)).unwrap() {
+            let entry = entry.unwrap();
+            let name = format!("{folder}/{}", entry.file_name().to_str().unwrap());
+            if entry.file_type().unwrap().is_dir() {
+                folders.push(name);
+            } else if name.ends_with(".md") && name != "rtl_notes/golden_model.md" {
+                documents.push(name);
+            }
         }
     }
     documents.sort();
@@ -142,8 +148,10 @@ fn is_command(span: &str) -> bool {
 /// A folder with the files of a checkout that commands read.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("rtl_notes")).unwrap();
     for (from, ends) in [
-        ("rtl_notes", &[".md"][..]),
+        ("rtl_notes/golden_model", &[".toml", ".v"][..]),
+        ("rtl_notes/pictures", &[".gtkw"]),
         ("waves", &[".csv", ".gtkw", ".hpgl", ".ngc", ".toml"]),
     ] {
         let to = folder.path().join(from);

@@ -12,7 +12,7 @@
 //! and exact integers; per sample the circuit adds, and on an arc multiplies by constants.
 //!
 //! What runs on the control computer is in [`jobs`](crate::jobs::arc_generator).
-//! `rtl_notes/arc_generator.md` is the note of this circuit.
+//! `rtl_notes/arc_generator/README.md` is the note of this circuit.
 
 pub mod angle_step;
 pub mod axis_terms;

@@ -16,7 +16,7 @@
 //!
 //! Every *scan* one axis, the master, gets the next position of a trapezoid, and the other, the
 //! slave, the position on the straight line that belongs to it, by an integer division whose
-//! remainder is carried on. `rtl_notes/linear_interpolator.md` is the note of this circuit.
+//! remainder is carried on. `rtl_notes/linear_interpolator/README.md` is the note of this circuit.
 
 pub mod accumulator;
 pub mod axis_switch;

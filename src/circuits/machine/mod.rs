@@ -14,7 +14,7 @@
 //!                                                  ▲ encoders of X, Y
 //! ```
 //!
-//! `rtl_notes/machine.md` has the wiring, the control computer and what the patents leave open.
+//! `rtl_notes/machine/README.md` has the wiring, the control computer and what the patents leave open.
 
 pub mod circuit;
 pub mod command_join;

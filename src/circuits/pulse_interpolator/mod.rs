@@ -24,7 +24,7 @@
 //! A *unit time* is T ticks. For each unit time and axis the memory holds a direction and a
 //! half-period n; the axis' step line toggles n, 2n, … ticks into the unit time and is low again
 //! when the next one begins. The unit-time counter 30 is an
-//! [`EnableCounter`](super::blocks::EnableCounter). `rtl_notes/pulse_interpolator.md` is the note
+//! [`EnableCounter`](super::blocks::EnableCounter). `rtl_notes/pulse_interpolator/README.md` is the note
 //! of this circuit.
 
 pub mod address_sequencer;

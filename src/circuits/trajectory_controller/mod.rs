@@ -1,7 +1,7 @@
 //! The trajectory controller of CN104204977.
 //!
 //! What runs on the control computer is in [`jobs`](crate::jobs::trajectory_controller).
-//! `rtl_notes/trajectory_controller.md` is the note of this circuit.
+//! `rtl_notes/trajectory_controller/README.md` is the note of this circuit.
 
 pub mod arc_angle;
 pub mod axis_row;

@@ -1,5 +1,6 @@
 //! Every timing chart of every note runs on the circuit it names.
 
+use super::links::prose;
 use super::{Note, expect_none, notes};
 use motion_rtl::registry::{CATALOGUE, find};
 use motion_rtl::trace::chart::{Chart, parse};
@@ -31,12 +32,18 @@ fn fault(note: &Note, chart: &Chart) -> Option<String> {
     Some(format!("{place}: {}: {failure}", entry.name))
 }
 
+/// True if a table of signals stands on the page, not in an example on it.
+fn has_signals(note: &Note) -> bool {
+    let begin = "<!-- begin generated: signals";
+    prose(&note.text).any(|(_, line)| line.starts_with(begin))
+}
+
 #[test]
 fn every_chart_runs() {
     let mut wrong = Vec::new();
     for note in notes() {
         match charts(&note) {
-            Ok(charts) if charts.is_empty() && note.text.contains("generated: signals") => {
+            Ok(charts) if charts.is_empty() && has_signals(&note) => {
                 wrong.push(format!("{}: has no chart", note.name))
             }
             Ok(charts) => wrong.extend(charts.iter().filter_map(|chart| fault(&note, chart))),
@@ -60,22 +67,20 @@ fn every_chart_says_what_it_shows() {
     expect_none(&wrong);
 }
 
-/// The section of a note that explains a circuit holds the table of its signals and a chart of it.
+/// The page that explains a circuit holds the table of its signals and a chart of it.
 #[test]
-fn every_circuit_has_a_section_with_its_signals_and_a_chart() {
+fn every_circuit_has_a_page_with_its_signals_and_a_chart() {
+    let notes = notes();
     let mut wrong = Vec::new();
     for entry in CATALOGUE {
         let marker = format!("<!-- begin generated: signals {} -->", entry.name);
-        let explained = notes().iter().any(|note| {
-            let sections = note.text.split("\n## ");
-            let mut own = sections.filter(|section| section.contains(&marker));
-            own.any(|section| {
-                parse(section).is_ok_and(|charts| charts.iter().any(|c| c.circuit == entry.name))
-            })
+        let explained = notes.iter().any(|note| {
+            let own = |charts: Vec<Chart>| charts.iter().any(|c| c.circuit == entry.name);
+            note.text.contains(&marker) && charts(note).is_ok_and(own)
         });
         if !explained {
             wrong.push(format!(
-                "{}: no section of a note has both `{marker}` and a chart of it",
+                "{}: no page has both `{marker}` and a chart of it",
                 entry.name
             ));
         }

@@ -302,15 +302,16 @@ fn other_ports(part: &Part) -> String {
     }
 }
 
-/// Of every circuit that has parts there is a table, in the section that has its signals.
+/// Of every circuit that has parts there is a table, on the page that has its signals.
 #[test]
 fn every_composite_has_a_table_of_its_connections() {
     let notes = notes();
     let wrong = CATALOGUE.par_iter().filter_map(|entry| {
         let marker = |kind| format!("\n<!-- begin generated: {kind} {} -->\n", entry.name);
-        let sections = notes.iter().flat_map(|note| note.text.split("\n## "));
-        let mut own = sections.filter(|section| section.contains(&marker("signals")));
-        let shown = own.any(|section| section.contains(&marker("connections")));
+        let mut own = notes
+            .iter()
+            .filter(|note| note.text.contains(&marker("signals")));
+        let shown = own.any(|note| note.text.contains(&marker("connections")));
         let expected = !connections(entry).parts.is_empty();
         let what = if expected {
             "wants"
@@ -319,7 +320,7 @@ fn every_composite_has_a_table_of_its_connections() {
         };
         (shown != expected).then(|| {
             format!(
-                "{}: its section {what} {}",
+                "{}: its page {what} {}",
                 entry.name,
                 marker("connections").trim()
             )

@@ -3,7 +3,7 @@
 //!
 //! `UPDATE_NOTES=1 cargo test --release --test cli notes` writes them anew.
 
-use super::{axes, blends, connections, expect_none, miscounts, notes, rotations, states};
+use super::{Note, axes, blends, connections, expect_none, miscounts, notes, rotations, states};
 use motion_rtl::circuits::pulse_interpolator::counts;
 use motion_rtl::hdl::{Declaration, Format, Kind, MemoryDeclaration, Role};
 use motion_rtl::registry::{CATALOGUE, Entry, ProofSearch, Verdict, find};
@@ -132,12 +132,24 @@ fn of(patent: &str) -> impl Iterator<Item = &'static Entry> {
 fn blocks(patent: &str) -> String {
     let mut text =
         String::from("| circuit | source | what it does | widths |\n|---|---|---|---|\n");
+    let notes = notes();
     for entry in of(patent) {
         let (name, source, about) = (entry.name, entry.source, entry.about);
-        let widths = widths(entry);
-        let _ = writeln!(text, "| `{name}` | {source} | {about} | {widths} |");
+        let (page, widths) = (page(&notes, name), widths(entry));
+        let _ = writeln!(
+            text,
+            "| [`{name}`]({page}) | {source} | {about} | {widths} |"
+        );
     }
     text
+}
+
+/// The page with a circuit's signals, as a link from another page of its folder or beside it.
+fn page(notes: &[Note], name: &str) -> String {
+    let mark = format!("\n{BEGIN}signals {name} -->\n");
+    let page = notes.iter().find(|note| note.text.contains(&mark));
+    let page = page.unwrap_or_else(|| panic!("no page has the signals of {name}"));
+    page.name.replacen("rtl_notes", "..", 1)
 }
 
 /// The widths of a circuit by name; numbers of axes and of stages are no widths.

@@ -33,7 +33,10 @@ fn keys(circuit: &str) -> BTreeSet<String> {
 
 /// Keys and defaults of the table in a circuit's note.
 fn table(circuit: &str) -> Vec<(Vec<String>, String)> {
-    let note = format!("{}/rtl_notes/{circuit}.md", env!("CARGO_MANIFEST_DIR"));
+    let note = format!(
+        "{}/rtl_notes/{circuit}/settings.md",
+        env!("CARGO_MANIFEST_DIR")
+    );
     let note = std::fs::read_to_string(note).unwrap();
     let rows = note
         .lines()

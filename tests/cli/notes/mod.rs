@@ -7,6 +7,7 @@ mod charts;
 mod connections;
 mod generated;
 mod keys;
+mod links;
 mod miscounts;
 mod rotations;
 mod states;
@@ -64,7 +65,7 @@ fn every_example_in_rust_is_compiled() {
         .filter(|note| note.text.lines().any(is_rust));
     let names: Vec<_> = with_rust.map(|note| note.name).collect();
     assert!(
-        names.contains(&"rtl_notes/conventions.md".to_owned()),
+        names.contains(&"rtl_notes/conventions/README.md".to_owned()),
         "{names:?}"
     );
     for name in names.iter().map(String::as_str).chain(["README.md"]) {
