@@ -139,20 +139,39 @@ fn of_note(name: &str, text: &str) -> Result<Vec<(String, Chart)>, Fault> {
         .collect())
 }
 
-/// The charts of a note, or of all notes of a folder, each with the note's name.
+/// Adds the notes of a folder and of the folders inside it; links to folders are left out.
+fn add_notes(folder: &Path, notes: &mut Vec<PathBuf>) -> Result<(), Fault> {
+    let failed = |error: std::io::Error| {
+        let problem = format!("cannot be read: {error}");
+        let allowed = or_more_files(&error, CHARTS);
+        Fault::new(
+            &folder.display().to_string(),
+            0,
+            "--charts",
+            problem,
+            allowed,
+        )
+    };
+    for entry in folder.read_dir().map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        let path = entry.path();
+        if entry.file_type().map_err(failed)?.is_dir() {
+            add_notes(&path, notes)?;
+        } else if path.extension().is_some_and(|extension| extension == "md") {
+            notes.push(path);
+        }
+    }
+    Ok(())
+}
+
+/// Returns the charts of a note, or of all notes below a folder, each with the note's name.
 fn charts(path: &Path) -> Result<Vec<(String, Chart)>, Failure> {
-    let mut notes = vec![path.to_owned()];
+    let mut notes = Vec::new();
     if path.is_dir() {
-        let failed = |error: std::io::Error| {
-            let problem = format!("cannot be read: {error}");
-            let allowed = or_more_files(&error, CHARTS);
-            Fault::new(&path.display().to_string(), 0, "--charts", problem, allowed)
-        };
-        let files = path.read_dir().map_err(failed)?;
-        let files = files.map(|file| file.map(|file| file.path()));
-        notes = files.collect::<Result<Vec<_>, _>>().map_err(failed)?;
-        notes.retain(|file| file.extension().is_some_and(|extension| extension == "md"));
+        add_notes(path, &mut notes)?;
         notes.sort();
+    } else {
+        notes.push(path.to_owned());
     }
     let mut charts = Vec::new();
     for note in notes {

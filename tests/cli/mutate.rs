@@ -26,7 +26,7 @@ fn timeless(text: &str) -> String {
 
 #[test]
 fn faults_are_found_by_charts_then_by_the_proof() {
-    let bench = Bench::with("rtl_notes/note.md", NOTE);
+    let bench = Bench::with("rtl_notes/blocks/note.md", NOTE);
     expect![[r#"
         circuit faults chart proof around unseen missed found time
         enable_counter 13 10 3 0 0 0 100.0 %

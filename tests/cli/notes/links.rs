@@ -175,7 +175,7 @@ fn every_path_of_a_note_in_the_source_is_there() {
                 .unwrap_or_default();
             let path = path.trim_end_matches('.');
             // A path that a program puts together, or that a test makes for itself.
-            if path.is_empty() || part[path.len()..].starts_with('{') || path == "note.md" {
+            if path.is_empty() || part[path.len()..].starts_with('{') || path == "blocks/note.md" {
                 continue;
             }
             paths += 1;
@@ -186,6 +186,36 @@ fn every_path_of_a_note_in_the_source_is_there() {
     }
     expect_none(&wrong);
     assert!(paths > 60, "{paths} paths");
+}
+
+/// A reader finds every page from the contents of its folder.
+#[test]
+fn every_page_is_in_the_contents_of_its_folder() {
+    let documents: HashMap<_, _> = documents().into_iter().collect();
+    let mut wrong = Vec::new();
+    for name in documents
+        .keys()
+        .filter(|name| name.starts_with("rtl_notes/"))
+    {
+        let folder = match name.strip_suffix("/README.md") {
+            Some(folder) => Path::new(folder).parent(),
+            None => Path::new(name).parent(),
+        };
+        let contents = folder.unwrap_or(Path::new("")).join("README.md");
+        let contents = contents.display().to_string();
+        let from = Path::new(&contents).parent().unwrap_or(Path::new(""));
+        let lines = prose(&documents[&contents]);
+        let mut links = lines.flat_map(|(_, line)| targets(line));
+        let leads = |target: &str| {
+            let file = target.split('#').next().unwrap_or_default();
+            plain(&from.join(file)) == Path::new(name)
+        };
+        if !links.any(leads) {
+            wrong.push(format!("{contents}: no link to {name}"));
+        }
+    }
+    wrong.sort();
+    expect_none(&wrong);
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod catalogue;
 mod charts;
 mod connections;
 mod generated;
+mod glossary;
 mod keys;
 mod links;
 mod miscounts;
