@@ -66,6 +66,11 @@ impl AtomicFile {
         })
     }
 
+    /// Returns the name that the file will have.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Gives the file its name.
     ///
     /// # Errors

@@ -1,7 +1,6 @@
 //! Faults of a file as they are told: all of them, with their lines.
 
-use std::io::{self, IsTerminal};
-
+use super::voice;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use motion_rtl::input::{Fault, MOST_FAULTS};
 
@@ -10,8 +9,7 @@ const WIDTH: usize = 200;
 
 /// A fault and those after it, each with its line and a caret under what is at fault.
 pub fn report(fault: &Fault) -> String {
-    let styled = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-    let renderer = match styled {
+    let renderer = match voice::colors_errors() {
         true => Renderer::styled(),
         false => Renderer::plain(),
     };

@@ -1,10 +1,13 @@
 //! The files of a run: they get their names together, when all of them are complete.
 
 use super::export::Export;
+use super::written::Written;
 use super::{Failure, warn};
 use motion_rtl::files::{self, AtomicFile, Claim, Directory, commit_all};
 use motion_rtl::input::MORE_FILES;
+use serde::Serialize;
 use std::ffi::OsString;
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -21,6 +24,44 @@ pub struct Files {
     _claim: Option<Claim>,
     // Last, as it can go only when the files are gone.
     _directory: Directory,
+}
+
+/// A file that a command has written.
+#[derive(Debug, Serialize)]
+pub struct Named {
+    pub path: String,
+    bytes: u64,
+}
+
+impl Named {
+    pub fn new(path: &Path) -> Self {
+        Named {
+            path: path.display().to_string(),
+            bytes: path.metadata().map_or(0, |there| there.len()),
+        }
+    }
+}
+
+/// Writes the path in one line, with the size.
+impl fmt::Display for Named {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let path = self.path.replace('\n', "\\n");
+        write!(f, "{path} ({})", size(self.bytes))
+    }
+}
+
+/// Returns a size for people, in decimal units.
+pub fn size(bytes: u64) -> String {
+    let units = [("GB", 1e9), ("MB", 1e6), ("kB", 1e3)];
+    let unit = units.iter().find(|(_, unit)| bytes as f64 >= 0.9995 * unit);
+    match unit {
+        None => format!("{bytes} B"),
+        Some((name, unit)) => {
+            let value = bytes as f64 / unit;
+            let digits = 2 - (value.log10() + 1e-3).floor().clamp(0.0, 2.0) as usize;
+            format!("{value:.digits$} {name}")
+        }
+    }
 }
 
 fn refuse(error: &io::Error) -> Failure {
@@ -128,8 +169,9 @@ impl Files {
         parent.unwrap_or(Path::new("."))
     }
 
-    /// Names them all; returns the names. Where one cannot be named, none is there.
-    pub fn commit(self) -> Result<Vec<String>, Failure> {
+    /// Names them all; returns the names and sizes. Where one cannot be named, none is there.
+    pub fn commit(self) -> Result<Vec<Named>, Failure> {
+        let directory = self.directory().to_owned();
         // One run at a time, so that what is checked is what is replaced.
         let _turn = match self.exports.is_empty() {
             true => None,
@@ -138,15 +180,35 @@ impl Files {
         for export in &self.exports {
             export.check(self.directory())?;
         }
+        let written = Written::read(&directory);
+        let ours = written.free(self.complete.iter().map(AtomicFile::path));
         let named = commit_all(self.complete)?;
-        let names = named.iter().map(|path| path.display().to_string());
-        Ok(names.collect())
+        written.add(&ours);
+        Ok(named.iter().map(|path| Named::new(path)).collect())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn sizes_have_three_digits() {
+        let sizes = [
+            0,
+            999,
+            1000,
+            12_345,
+            99_949,
+            999_949,
+            1_000_000,
+            2_345_678_901,
+        ];
+        let texts = [
+            "0 B", "999 B", "1.00 kB", "12.3 kB", "99.9 kB", "1.00 MB", "1.00 MB", "2.35 GB",
+        ];
+        assert_eq!(sizes.map(size), texts);
+    }
 
     #[test]
     fn where_one_cannot_be_named_none_is_there() {

@@ -6,7 +6,7 @@ use super::job::Job;
 use super::shipped::{SHIPPED, Shipped};
 use super::source::Source;
 use super::waves_of::System;
-use super::{Failure, print, print_json};
+use super::{Failure, errors, print, print_json};
 use clap::Args;
 use motion_rtl::hdl::{Declaration, Role, RunError};
 use motion_rtl::registry::{CATALOGUE, Entry};
@@ -26,6 +26,7 @@ pub struct Arguments {
 
 #[derive(Debug, Serialize)]
 struct Listing {
+    version: u32,
     circuits: Vec<Circuit>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     scenarios: Vec<Scenario>,
@@ -79,6 +80,7 @@ impl Scenario {
 pub fn list(arguments: &Arguments) -> Result<(), Failure> {
     let listing = match &arguments.circuit {
         None => Listing {
+            version: errors::VERSION,
             circuits: CATALOGUE.iter().map(circuit).collect(),
             scenarios: SHIPPED.iter().map(Scenario::of).collect::<Result<_, _>>()?,
         },
@@ -88,6 +90,7 @@ pub fn list(arguments: &Arguments) -> Result<(), Failure> {
             let mut circuit = circuit(entry);
             circuit.connections = Connections::of(connections);
             Listing {
+                version: errors::VERSION,
                 circuits: vec![circuit],
                 scenarios: Vec::new(),
             }

@@ -1,40 +1,51 @@
 //! The commands.
 
 mod arc;
-pub mod check;
+mod check;
 mod chosen;
-pub mod compare;
+mod clean;
+mod compare;
 mod connections;
+mod errors;
 mod export;
 mod faults;
 mod files;
+mod given;
+mod help;
 mod job;
 mod lead_angle;
-pub mod limits;
+mod limits;
 mod linear;
-pub mod list;
+mod list;
 mod machine;
 mod magnification;
-pub mod mutate;
+mod mutate;
 mod notes;
 mod pieces;
-pub mod plan;
+mod plan;
+pub mod program;
 mod progress;
 mod pulse;
 mod report;
 mod rows;
-pub mod run;
+mod run;
+#[cfg(feature = "shell")]
+mod shell;
 mod shipped;
-pub mod signals;
+mod signals;
 mod source;
-pub mod table;
+mod table;
 mod thinned;
 mod threads;
 mod times;
 mod traces;
 mod trajectory;
-pub mod verilog;
+mod verilog;
+mod version;
+mod viewer;
+mod voice;
 mod waves_of;
+mod written;
 
 use motion_rtl::hdl::RunError;
 use motion_rtl::input::{Fault, LISTED, SHOWN, shown};
@@ -108,6 +119,13 @@ impl Failure {
 
 /// Prints to standard output; a reader that has gone away (`| head`) is no failure.
 fn print(text: &str) -> Result<(), Failure> {
+    match voice::is_quiet() {
+        true => Ok(()),
+        false => to_standard_output(text),
+    }
+}
+
+fn to_standard_output(text: &str) -> Result<(), Failure> {
     printed(io::stdout().lock().write_all(plain(text).as_bytes()))
 }
 
@@ -129,6 +147,9 @@ pub fn plain(text: &str) -> Cow<'_, str> {
 
 /// Prints a warning on standard error.
 fn warn(text: &str) {
+    if voice::is_quiet() {
+        return;
+    }
     // Where standard error is gone there is nobody to tell.
     let _ = writeln!(io::stderr(), "warning: {}", plain(text));
 }
@@ -151,5 +172,6 @@ pub fn printed(done: io::Result<()>) -> Result<(), Failure> {
 /// Prints a value as JSON.
 fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(value).map_err(io::Error::from)?;
-    print(&(text + "\n"))
+    errors::is_printed();
+    to_standard_output(&(text + "\n"))
 }

@@ -1,6 +1,7 @@
 //! How far a run is, on standard error: before it starts how long it takes, if that is long; while it
 //! goes on a bar on a terminal, and elsewhere a line now and then.
 
+use super::voice;
 use indicatif::{ProgressBar, ProgressStyle};
 use motion_rtl::hdl::{Circuit, Observer, RunError, Sample};
 use std::io::{IsTerminal, Write, stderr};
@@ -32,7 +33,17 @@ static STAGE: Mutex<Stage> = Mutex::new(Stage { name: "", ticks: 0 });
 static DONE: AtomicU64 = AtomicU64::new(0);
 static BAR: LazyLock<ProgressBar> = LazyLock::new(ProgressBar::new_spinner);
 
+/// Start of the program, for the times of stages.
+static BEGAN: LazyLock<Instant> = LazyLock::new(Instant::now);
+
 fn set(stage: Stage) {
+    if voice::is_verbose() {
+        let name = match stage.ticks {
+            0 => stage.name.to_owned(),
+            ticks => format!("{}, about {ticks} ticks", stage.name),
+        };
+        tell(&name);
+    }
     DONE.store(0, Ordering::Relaxed);
     let style = match stage.ticks {
         0 => ProgressStyle::with_template("{spinner} {msg}  {elapsed}"),
@@ -57,8 +68,11 @@ pub fn begin() {
         name: "reading",
         ticks: 0,
     });
-    let began = Instant::now();
+    let began = *BEGAN;
     let terminal = stderr().is_terminal();
+    if voice::is_quiet() {
+        return;
+    }
     // Without a thread it is not told between two ticks.
     let _ = thread::Builder::new()
         .name("progress".into())
@@ -94,6 +108,15 @@ fn line(stage: &Stage, done: u64, after: Duration) -> String {
     }
 }
 
+/// Says something on standard error with its time, if stages are told.
+pub fn tell(text: &str) {
+    if voice::is_verbose() {
+        let seconds = BEGAN.elapsed().as_secs_f64();
+        // Where standard error is gone, there is nobody to tell.
+        let _ = writeln!(stderr(), "{seconds:.3} s: {}", super::plain(text));
+    }
+}
+
 /// Says what is done from now on, where that is no run.
 pub fn stage(name: &'static str) {
     set(Stage { name, ticks: 0 });
@@ -122,7 +145,7 @@ pub fn run(subject: &str, work: Work) {
         in_waves,
     } = work;
     let seconds = seconds + in_waves as f64 * WAVES_NS * 1e-9;
-    if seconds >= LONG_S {
+    if seconds >= LONG_S && !voice::is_quiet() {
         let all = match runs {
             1 => String::new(),
             runs => format!(" in each of {runs} runs"),

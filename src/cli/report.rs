@@ -1,8 +1,9 @@
 //! How every run ends: what all summaries have, and what is said of it.
 
-use super::files::Files;
+use super::files::{Files, Named};
 use super::run::Arguments;
-use super::{Failure, print, print_json, progress, warn};
+use super::viewer::Viewer;
+use super::{Failure, errors, print, print_json, progress, warn};
 use motion_rtl::trace::Options;
 use serde::Serialize;
 use std::fmt::{self, Write as _};
@@ -11,6 +12,8 @@ use std::ops::Range;
 /// What all summaries have.
 #[derive(Debug, Serialize)]
 pub struct Outcome {
+    /// Version of the keys.
+    pub version: u32,
     /// The circuit that ran.
     pub circuit: &'static str,
     /// The input file, or the scenario's name.
@@ -28,13 +31,14 @@ pub struct Outcome {
     /// Ticks that went into the waves, half-open; `null` without any.
     pub vcd_window: Option<[u64; 2]>,
     /// The files written.
-    pub files: Vec<String>,
+    pub files: Vec<Named>,
 }
 
 impl Outcome {
     /// Of a run that nothing is known to be wrong with; its files are not written yet.
     pub fn new(circuit: &'static str, input: &str, clock_hz: u64, ticks: u64) -> Self {
         Outcome {
+            version: errors::VERSION,
             circuit,
             input: input.to_owned(),
             clock_hz,
@@ -93,12 +97,16 @@ pub fn conclude(
     files: Files,
     mut summary: impl Report,
 ) -> Result<(), Failure> {
+    let viewer = arguments.open.then(Viewer::find).transpose()?;
     let Range { start, end } = options.ticks;
     let outcome = summary.outcome();
     let window = [start, end.min(outcome.ticks).max(start)];
     outcome.vcd_window = (!arguments.no_vcd).then_some(window);
     progress::end();
     outcome.files = files.commit()?;
+    if let Some(viewer) = viewer {
+        viewer.open(&outcome.files);
+    }
     match arguments.json {
         true => print_json(&summary)?,
         false => {

@@ -5,6 +5,7 @@ use super::job::Job;
 use super::progress;
 use super::source::{Input, Source};
 use super::traces::Format;
+use super::viewer::Viewer;
 use clap::Args;
 use motion_rtl::scenario::Loaded;
 use motion_rtl::trace::{Clock, Options};
@@ -30,7 +31,7 @@ pub struct Arguments {
     /// First tick in the waves.
     #[arg(long, value_name = "TICK", allow_negative_numbers = true)]
     pub(super) from: Option<u64>,
-    /// First tick that is no more in the waves.
+    /// End of the window, exclusive.
     #[arg(long, value_name = "TICK", allow_negative_numbers = true)]
     pub(super) to: Option<u64>,
     /// A scope or signal in the waves, as `pulse_interpolator.x`; repeated for more. Without it all.
@@ -53,6 +54,9 @@ pub struct Arguments {
     /// the pulse interpolator).
     #[arg(long)]
     pub(super) segments: bool,
+    /// Shows the waves in GTKWave, or in Surfer where that is not there.
+    #[arg(long, conflicts_with = "no_vcd")]
+    pub(super) open: bool,
     /// Prints the summary as JSON.
     #[arg(long)]
     pub(super) json: bool,
@@ -67,6 +71,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn play(arguments: &Arguments) -> Result<(), Failure> {
+    // Before the run, which may be long.
+    arguments.open.then(Viewer::find).transpose()?;
     let mut input = arguments.input.clone();
     input
         .sets

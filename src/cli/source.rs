@@ -1,11 +1,13 @@
 //! What `run` and `table` begin with: a scenario and its input.
 
+use super::given::{Format, Given};
 use super::shipped::{self, SHIPPED, Shipped};
 use clap::Args;
 use motion_rtl::input::position_log::{self, Columns, PositionLog};
 use motion_rtl::input::{Drawing, Fault, Kind, Options, read_path_with};
 use motion_rtl::jobs::pulse_interpolator::Table;
 use motion_rtl::jobs::pulse_interpolator::table::read;
+use motion_rtl::nearest::nearest;
 use motion_rtl::plan::{FEED_RANGE, PlanError};
 use motion_rtl::scenario::{Loaded, Program, Runnable, Scenario};
 use motion_rtl::settings::{Place, SettingError, tidy};
@@ -14,9 +16,13 @@ use std::path::{Path, PathBuf};
 /// What to run.
 #[derive(Debug, Clone, Default, Args)]
 pub struct Input {
-    /// Scenario (.toml), HPGL drawing, G-code program or position log (.csv); without it the
-    /// scenario that ships with the crate.
+    /// Scenario (.toml), HPGL drawing, G-code program or position log (.csv), or `-` for standard
+    /// input; without it the shipped scenario waves/machine.toml.
+    #[arg(value_name = "FILE")]
     pub input: Option<PathBuf>,
+    /// Format of FILE; without it the extension decides. Standard input needs it.
+    #[arg(long, value_enum, value_name = "FORMAT", requires = "input")]
+    pub input_format: Option<Format>,
     /// Overrides a key of the scenario.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub sets: Vec<String>,
@@ -102,6 +108,8 @@ pub struct Source {
 enum Origin {
     /// In a file.
     File(PathBuf),
+    /// Read already: from standard input, or from a file whose extension does not count.
+    Given(Given),
     /// In the crate.
     Crate(&'static Shipped),
     /// The scenario needs none, or should have one.
@@ -152,6 +160,13 @@ impl Source {
                 let read = |()| read_path_with(path, &self.options);
                 Some(self.takes(path).and_then(read))
             }
+            Origin::Given(given) => {
+                let read = |()| given.drawing(&self.options);
+                Some(
+                    self.takes_kind(&given.name, given.format.kind())
+                        .and_then(read),
+                )
+            }
             Origin::Crate(shipped) => shipped.drawing(&self.options),
             Origin::Nowhere => None,
         }
@@ -163,6 +178,10 @@ impl Source {
             Origin::File(path) => {
                 self.takes(path)?;
                 position_log::read_path(path, columns).map(Some)
+            }
+            Origin::Given(given) => {
+                self.takes_kind(&given.name, given.format.kind())?;
+                position_log::read(&given.name, &given.bytes, columns).map(Some)
             }
             Origin::Crate(_) | Origin::Nowhere => Ok(None),
         }
@@ -181,25 +200,32 @@ impl Source {
     /// The input, where its extension and nothing else chose the circuit.
     pub fn chose_circuit(&self) -> Option<&Path> {
         let loaded = &self.loaded;
+        if !loaded.is_bare() || loaded.overrides("circuit") {
+            return None;
+        }
         match &self.origin {
-            Origin::File(path) if loaded.is_bare() && !loaded.overrides("circuit") => Some(path),
-            _ => None,
+            Origin::File(path) => Some(path),
+            Origin::Given(given) => Some(Path::new(&given.name)),
+            Origin::Crate(_) | Origin::Nowhere => None,
         }
     }
 
     /// Refuses an input of a kind that the circuit does not take.
     fn takes(&self, input: &Path) -> Result<(), Fault> {
-        let circuit = self.loaded.scenario.circuit();
         // A file of another name may hold what the circuit takes.
         let Ok(kind) = Kind::of(input) else {
             return Ok(());
         };
+        self.takes_kind(&input.display().to_string(), kind)
+    }
+
+    fn takes_kind(&self, name: &str, kind: Kind) -> Result<(), Fault> {
+        let circuit = self.loaded.scenario.circuit();
         if circuit.takes(kind) {
             return Ok(());
         }
         let problem = format!("is {kind}, which {} does not take", circuit.name());
-        let name = input.display().to_string();
-        Err(Fault::new(&name, 0, "file", problem, circuit.inputs()))
+        Err(Fault::new(name, 0, "file", problem, circuit.inputs()))
     }
 }
 
@@ -223,7 +249,26 @@ fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {
         None => SHIPPED.first(),
         Some(path) => shipped::find(path),
     };
-    let (loaded, origin) = if let Some(shipped) = shipped {
+    let given = Given::read(path, input.input_format)?;
+    let name = given.as_ref().map(|given| given.path().to_owned());
+    let name = name.unwrap_or_else(|| path.to_owned());
+    let (loaded, origin) = if let Some(given) = given {
+        match given.format {
+            Format::Toml => {
+                let loaded = match given.is_standard() {
+                    true => Loaded::parse(&given.name, given.text()?, &input.sets)?,
+                    // What it names is relative to it.
+                    false => Loaded::read(path, &input.sets)?,
+                };
+                let within = loaded.scenario.input().cloned();
+                (loaded, within.map_or(Origin::Nowhere, Origin::File))
+            }
+            format => {
+                let loaded = Loaded::bare_of(&given.name, format.kind(), &input.sets)?;
+                (loaded, Origin::Given(given))
+            }
+        }
+    } else if let Some(shipped) = shipped {
         let loaded = shipped.load(&input.sets)?;
         let origin = match loaded.scenario.input() {
             Some(other) if loaded.overrides("input") => Origin::File(other.clone()),
@@ -231,7 +276,7 @@ fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {
         };
         (loaded, origin)
     } else if Kind::of(path)? == Kind::Scenario {
-        let loaded = Loaded::read(path, &input.sets)?;
+        let loaded = Loaded::read(path, &input.sets).map_err(|fault| meant(path, fault))?;
         let given = loaded.scenario.input().cloned();
         (loaded, given.map_or(Origin::Nowhere, Origin::File))
     } else {
@@ -242,7 +287,36 @@ fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {
         let allowed = "1 to 9223372036854775807; --no-vcd for none".to_owned();
         return Err(loaded.fault("vcd_ticks", "is 0".to_owned(), allowed));
     }
-    Ok((loaded, origin, path.to_owned()))
+    Ok((loaded, origin, name))
+}
+
+/// A fault of a scenario that is not there, with the shipped one that its name resembles.
+fn meant(path: &Path, fault: Fault) -> Fault {
+    if path.exists() {
+        return fault;
+    }
+    let stem = |path: &Path| {
+        path.file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned())
+    };
+    let files = SHIPPED.iter().map(|shipped| shipped.file);
+    let stems: Vec<_> = files
+        .clone()
+        .filter_map(|file| stem(Path::new(file)))
+        .collect();
+    let near = stem(path).and_then(|wanted| {
+        let near = nearest(&wanted, stems.iter().map(String::as_str))?;
+        files
+            .clone()
+            .find(|file| stem(Path::new(file)).as_deref() == Some(near))
+    });
+    match near {
+        Some(file) => Fault {
+            allowed: format!("{}; did you mean {file}?", fault.allowed),
+            ..fault
+        },
+        None => fault,
+    }
 }
 
 /// What the planner objects to, with the file and line it stands in.

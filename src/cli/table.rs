@@ -1,8 +1,10 @@
 //! `table`: a drawing compiled into the pattern memory's contents.
 
+use super::files::Named;
 use super::pulse::{Job, TableSummary, warnings};
 use super::source::{Input, Source};
-use super::{Failure, print, print_json};
+use super::written::Written;
+use super::{Failure, errors, print, print_json};
 use clap::Args;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
 use motion_rtl::files;
@@ -30,6 +32,7 @@ pub struct Arguments {
 
 #[derive(Debug, Serialize)]
 struct Output<'a> {
+    version: u32,
     input: &'a str,
     clock_hz: u64,
     patterns: usize,
@@ -37,7 +40,7 @@ struct Output<'a> {
     report: &'a Report,
     scaling: Option<Vec<AxisDeviation>>,
     warnings: Vec<String>,
-    files: Vec<String>,
+    files: Vec<Named>,
 }
 
 /// What scaling the data does to an axis.
@@ -74,19 +77,24 @@ pub fn table(arguments: &Arguments) -> Result<(), Failure> {
     let table = scaled.as_ref().map_or(&job.table, |scaled| &scaled.table);
     let mut files = Vec::new();
     if let Some(path) = &arguments.out {
-        super::files::clear(match path.parent() {
+        let directory = match path.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
-        });
+        };
+        super::files::clear(directory);
+        let list = Written::read(directory);
+        let ours = list.free([path.as_path()].into_iter());
         let written = files::write(path, csv(table));
         let written =
             written.map_err(|error| super::files::refused(&error, "a file that can be written"))?;
-        files.push(written.display().to_string());
+        list.add(&ours);
+        files.push(Named::new(&written));
     }
     let scaling = scaled
         .as_ref()
         .map(|scaled| scaled.axes.iter().map(Into::into).collect());
     let output = Output {
+        version: errors::VERSION,
         input: &job.drawing.file,
         clock_hz: job.settings.clock_hz,
         patterns: table.patterns().len(),

@@ -92,20 +92,21 @@ impl Loaded {
     /// The input has no known extension or is a scenario; an override is wrong, or chooses a circuit
     /// that does not take such an input.
     pub fn bare(input: &Path, sets: &[String]) -> Result<Self, Fault> {
-        let kind = Kind::of(input)?;
-        let name = input.display();
+        Self::bare_of(&input.display().to_string(), Kind::of(input)?, sets)
+    }
+
+    /// A scenario of defaults and overrides for an input of this name and kind.
+    ///
+    /// # Errors
+    /// The input is a scenario; an override is wrong, or chooses a circuit that does not take such
+    /// an input.
+    pub fn bare_of(name: &str, kind: Kind, sets: &[String]) -> Result<Self, Fault> {
         let (text, others) = match kind {
             Kind::PositionLog => (BARE_LOG, Runnable::LeadAngle.name().to_owned()),
             Kind::Drawing => (BARE, format!("another circuit, or {POSITION_LOGS}")),
             Kind::Scenario => {
                 let allowed = format!("{DRAWINGS}; {POSITION_LOGS}");
-                return Err(Fault::new(
-                    &name.to_string(),
-                    0,
-                    "file",
-                    "is a scenario",
-                    allowed,
-                ));
+                return Err(Fault::new(name, 0, "file", "is a scenario", allowed));
             }
         };
         if let Some(circuit) = chosen(sets)?

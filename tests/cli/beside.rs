@@ -72,7 +72,7 @@ pub fn bench() -> Bench {
 fn run(bench: &Bench, arguments: &[&str], more: &[&str]) -> (Value, String) {
     let arguments = [&["run"], arguments, &["--no-vcd", "--out", "o"], more].concat();
     let mut summary = bench.json(&arguments);
-    let file = summary["files"][0].as_str().unwrap().to_owned();
+    let file = summary["files"][0]["path"].as_str().unwrap().to_owned();
     summary["files"] = json!([]);
     (summary, bench.read(&file))
 }

@@ -169,7 +169,7 @@ fn what_cannot_be_proved_is_refused() {
 fn the_list_has_every_circuit_with_ports_and_widths() {
     let bench = Bench::new();
     let list = bench.json(&["list"]);
-    assert_eq!(keys(&list), ["circuits", "scenarios"]);
+    assert_eq!(keys(&list), ["circuits", "scenarios", "version"]);
     let circuits = list["circuits"].as_array().unwrap();
     let names: Vec<_> = circuits
         .iter()
@@ -237,7 +237,7 @@ fn the_list_has_every_circuit_with_ports_and_widths() {
 fn a_circuit_is_listed_with_what_drives_its_parts() {
     let bench = Bench::new();
     let list = bench.json(&["list", "axis"]);
-    assert_eq!(keys(&list), ["circuits"]);
+    assert_eq!(keys(&list), ["circuits", "version"]);
     let connections = &list["circuits"][0]["connections"];
     let memory = &connections["parts"][0];
     assert_eq!(memory["name"], "memory");

@@ -1,6 +1,6 @@
 //! Drawings and part programs whose steps are known by hand, through `run`.
 
-use super::support::{Bench, LINE, SHORT, keys, list, whole};
+use super::support::{Bench, LINE, SHORT, keys, list, paths, whole};
 use serde_json::{Value, json};
 
 /// The summary of a run without waves.
@@ -116,6 +116,7 @@ fn every_field_has_its_type_and_value() {
         "units",
         "variant",
         "vcd_window",
+        "version",
         "warnings",
     ];
     assert_eq!(keys(&summary), expected);
@@ -125,7 +126,7 @@ fn every_field_has_its_type_and_value() {
     assert_eq!(summary["clock_hz"], 100_000);
     assert_eq!(summary["exact"], true);
     assert_eq!(summary["complaints"], json!([]));
-    assert_eq!(summary["files"], json!(["waves/line.svg"]));
+    assert_eq!(paths(&summary), json!(["waves/line.svg"]));
     assert_eq!(summary["vcd_window"], Value::Null);
     assert_eq!(summary["warnings"], json!([]));
     assert_eq!(summary["remedy"], Value::Null);

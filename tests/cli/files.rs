@@ -179,7 +179,7 @@ fn a_link_is_followed() {
     bench.write("o/left", "");
     std::os::unix::fs::symlink("../far/l.vcd", bench.path("o/l.vcd")).unwrap();
     let said = bench.succeed(&run(&["--out", "o"]));
-    assert!(said.contains("wrote o/l.vcd\n"), "{said}");
+    assert!(said.contains("wrote o/l.vcd ("), "{said}");
     assert!(bench.path("o/l.vcd").is_symlink());
     assert!(bench.read("far/l.vcd").starts_with("$"), "no waves");
 }

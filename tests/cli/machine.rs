@@ -1,6 +1,6 @@
 //! `run` of the machine: figures of a short drawing, files, what is complained of, refusals.
 
-use super::support::{Bench, keys, list, number, whole};
+use super::support::{Bench, keys, list, number, paths, whole};
 use serde_json::{Value, json};
 
 /// 1 um a count, 1/40 mm a step; slow rates, for few ticks.
@@ -65,6 +65,7 @@ fn both_machines_end_at_the_same_point() {
             "unattainable_units",
             "unit_ticks",
             "vcd_window",
+            "version",
             "warnings"
         ]
     );
@@ -75,7 +76,7 @@ fn both_machines_end_at_the_same_point() {
         (&json!(true), &json!([]))
     );
     assert_eq!(summary["vcd_window"], Value::Null);
-    assert_eq!(summary["files"], json!(["waves/s.svg"]));
+    assert_eq!(paths(&summary), json!(["waves/s.svg"]));
     // To and fro: 2 mm of 40 steps in x, 1 mm in y.
     assert_eq!(summary["pulses"], json!([160, 80]));
     let ends = json!([

@@ -37,6 +37,7 @@ mod mutate;
 mod notes;
 mod patterns;
 mod plan;
+mod program;
 mod progress;
 mod readme;
 mod refusals;

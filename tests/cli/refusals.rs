@@ -43,7 +43,7 @@ fn bad_drawings_are_refused() {
         let bench = Bench::with(name, text);
         bench.refuse(&["run", name], &refusal);
         bench.refuse(&["table", name, "--out", "t/t.csv"], &refusal);
-        bench.refuse(&["run", name, "--out", "new/deep", "--json"], &refusal);
+        bench.refuse(&["run", name, "--out", "new/deep"], &refusal);
     }
 }
 

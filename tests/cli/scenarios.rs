@@ -1,6 +1,6 @@
 //! Scenarios: those that ship with the crate, and files of one's own.
 
-use super::support::{Bench, LINE, SHORT, list, whole};
+use super::support::{Bench, LINE, SHORT, list, paths, whole};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::fs;
@@ -220,7 +220,7 @@ fn the_input_is_relative_to_its_scenario_an_override_to_where_it_runs() {
     let summary = bench.json(&run);
     assert_eq!(summary["input"], "deep/er/parts/line.hpgl");
     assert_eq!(whole(&summary, "/axes/x/steps_demanded"), 800);
-    assert_eq!(summary["files"], json!(["waves/job.svg"]));
+    assert_eq!(paths(&summary), json!(["waves/job.svg"]));
 
     let summary = bench.json(&[&run[..], &["--set", "input=here.hpgl"]].concat());
     assert_eq!(summary["input"], "here.hpgl");

@@ -124,13 +124,31 @@ impl Bench {
         assert_eq!(self.names(), before, "{arguments:?} left something");
     }
 
-    /// Everything in the directory, directories with a slash at the end.
+    /// Everything in the directory, directories with a slash at the end; not the lists of what runs
+    /// have written.
     pub fn names(&self) -> Vec<String> {
         let mut names = Vec::new();
         walk(self.directory.path(), "", &mut names);
+        names.retain(|name| !name.ends_with(".motion-rtl-written"));
         names.sort();
         names
     }
+}
+
+/// The paths of the files that a summary names.
+pub fn paths(summary: &Value) -> Value {
+    let files = summary["files"].as_array().expect("a list of files");
+    files.iter().map(|file| file["path"].clone()).collect()
+}
+
+/// A text without the sizes of the files that were written.
+pub fn without_sizes(text: &str) -> String {
+    let lines = text.split_inclusive('\n');
+    let lines = lines.map(|line| match line.rsplit_once(" (") {
+        Some((wrote, size)) if size.ends_with("B)\n") => format!("{wrote}\n"),
+        _ => line.to_owned(),
+    });
+    lines.collect()
 }
 
 /// True if a line of standard error says how long a run takes, or how far it is.

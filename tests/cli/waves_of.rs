@@ -2,7 +2,7 @@
 //! summary.
 
 use super::beside::{bench, runs};
-use super::support::{Bench, LINE, SHORT, list, whole, words};
+use super::support::{Bench, LINE, SHORT, list, paths, whole, words};
 use serde_json::{Value, json};
 
 /// Name on the command line of a name of a summary.
@@ -50,7 +50,7 @@ fn every_system_that_a_summary_names_can_be_had() {
             let more = ["--waves-of", &name, "--to", "3000", "--out", "w"];
             let summary = bench.json(&[&run[..run.len() - 2], &more].concat());
             let files = ["vcd", "gtkw"].map(|end| format!("w/{stem}_{name}.{end}"));
-            assert_eq!(summary["files"], json!(files), "{arguments:?} {name}");
+            assert_eq!(paths(&summary), json!(files), "{arguments:?} {name}");
             assert_eq!(key(summary["system"].as_str().unwrap()), name);
             let save = bench.read(&files[1]);
             let dump = format!("[dumpfile] \"{stem}_{name}.vcd\"");

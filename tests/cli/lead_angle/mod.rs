@@ -9,7 +9,7 @@ mod operation;
 mod refusals;
 mod setter;
 
-use super::support::{Bench, DRAWINGS, keys, list, number, whole};
+use super::support::{Bench, DRAWINGS, keys, list, number, paths, whole, without_sizes};
 use expect_test::expect;
 use serde_json::{Value, json};
 use std::sync::LazyLock;
@@ -247,12 +247,13 @@ fn the_summary_has_these_keys() {
         "targets",
         "ticks",
         "vcd_window",
+        "version",
         "warnings",
     ];
     assert_eq!(keys(&summary), expected);
     assert_eq!(summary["input"], "s");
     assert_eq!(summary["vcd_window"], Value::Null);
-    assert_eq!(summary["files"], json!(["waves/s.svg"]));
+    assert_eq!(paths(&summary), json!(["waves/s.svg"]));
     let row = [
         "code_travel_counts",
         "end_speed_counts_per_s",
@@ -314,7 +315,7 @@ fn people_see_the_last_of_each_step_or_every_positioning() {
                   5     1      1555               549       555       549       545         955       569           545             545          1429   24.6 ms       8.0
 
         wrote waves/s.svg
-    "#]].assert_eq(&text);
+    "#]].assert_eq(&without_sizes(&text));
     let short = small().succeed(&["run", "--beside", "s.toml", "--no-vcd"]);
     let (start, end) = text.split_at(text.find("positioning  step").unwrap());
     let files = &end[end.find("wrote").unwrap()..];

@@ -8,7 +8,7 @@ mod plant;
 mod tolerance;
 
 use super::scenarios::{CIRCLE, FEED, POCKET, runs_exactly};
-use super::support::{Bench, keys, list, near, number, whole};
+use super::support::{Bench, keys, list, near, number, paths, whole};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::fs;
@@ -87,6 +87,7 @@ fn the_circle_is_what_closed_forms_say() {
             "segments",
             "ticks",
             "vcd_window",
+            "version",
             "warnings"
         ]
     );
@@ -96,7 +97,7 @@ fn the_circle_is_what_closed_forms_say() {
     assert_eq!(summary["rounding"], "nearest");
     assert_eq!(summary["exact"], true);
     let files = ["vcd", "gtkw", "svg"].map(|kind| format!("waves/circle.{kind}"));
-    assert_eq!(summary["files"], json!(files));
+    assert_eq!(paths(&summary), json!(files));
     assert_eq!(whole(&summary, "/axes"), 2);
     assert_eq!(whole(&summary, "/period_ticks"), 400);
     assert!(whole(&summary, "/period_ticks_needed") <= 400);
@@ -413,7 +414,7 @@ fn the_pocket_moves_three_axes() {
 fn the_files_of_a_run() {
     let bench = with(LINE);
     let summary = bench.json(&["run", "--beside", "s.toml", "--to", "3000", "--out", "o"]);
-    assert_eq!(summary["files"], json!(["o/s.vcd", "o/s.gtkw", "o/s.svg"]));
+    assert_eq!(paths(&summary), json!(["o/s.vcd", "o/s.gtkw", "o/s.svg"]));
     assert_eq!(summary["vcd_window"], json!([0, 3000]));
     assert_eq!(
         bench.names(),

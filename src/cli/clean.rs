@@ -1,0 +1,83 @@
+//! `clean`: removes what runs have written into a directory.
+
+use super::files::size;
+use super::written::Written;
+use super::{Failure, print, warn};
+use clap::Args;
+use std::fmt::Write as _;
+use std::fs;
+use std::io::{self, BufRead as _, IsTerminal as _, stdin};
+use std::path::PathBuf;
+
+/// What to remove.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// Directory with the results of runs.
+    #[arg(value_name = "DIR", default_value = "waves")]
+    directory: PathBuf,
+    /// Names the files and removes none.
+    #[arg(long, conflicts_with = "yes")]
+    dry_run: bool,
+    /// Removes them without asking.
+    #[arg(long, short)]
+    yes: bool,
+}
+
+/// Names the files that runs have made and that are as they left them, and removes these.
+pub fn clean(arguments: &Arguments) -> Result<(), Failure> {
+    let directory = &arguments.directory;
+    if !directory.is_dir() {
+        return Err(Failure::Argument {
+            field: "DIR",
+            problem: format!("{} is not a directory", directory.display()),
+            allowed: "the --out of a run".into(),
+        });
+    }
+    let written = Written::read(directory);
+    let (files, changed) = written.split();
+    for path in &changed {
+        warn(&format!("{} changed since: it stays", path.display()));
+    }
+    if files.is_empty() {
+        return print(&format!("no run's files in {}\n", directory.display()));
+    }
+    let mut text = String::new();
+    for path in &files {
+        let bytes = path.symlink_metadata().map_or(0, |there| there.len());
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "{} ({})", path.display(), size(bytes));
+    }
+    print(&text)?;
+    if arguments.dry_run || !(arguments.yes || agreed(files.len())?) {
+        return Ok(());
+    }
+    for path in &files {
+        fs::remove_file(path).map_err(|error| {
+            io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+        })?;
+    }
+    if changed.is_empty() {
+        // Without it, nothing is known to be a run's.
+        let _ = fs::remove_file(written.list());
+    }
+    let count = files.len();
+    print(&format!(
+        "removed {count} file{}\n",
+        if count == 1 { "" } else { "s" }
+    ))
+}
+
+/// Asks whether to remove so many files.
+fn agreed(count: usize) -> Result<bool, Failure> {
+    if !stdin().is_terminal() {
+        return Err(Failure::Argument {
+            field: "clean",
+            problem: "nobody can be asked: standard input is no terminal".into(),
+            allowed: "--yes to remove them, --dry-run to name them".into(),
+        });
+    }
+    print(&format!("remove these {count} files? [y/N] "))?;
+    let mut answer = String::new();
+    stdin().lock().read_line(&mut answer)?;
+    Ok(matches!(answer.trim(), "y" | "Y" | "yes"))
+}

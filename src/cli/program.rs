@@ -1,0 +1,174 @@
+//! The program: its commands, the options that all of them have, and how it ends.
+
+use super::voice::{self, Voice};
+use super::{Failure, errors, help, limits, printed, signals, version};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use motion_rtl::nearest::nearest;
+use std::ffi::OsString;
+use std::io::{Write as _, stderr};
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Motion-control patents as cycle-accurate RTL models: drawings in, pulses and waves out.
+#[derive(Debug, Parser)]
+#[command(
+    version = version::short(),
+    long_version = version::long(),
+    about,
+    max_term_width = 100,
+    override_usage = "motion-rtl [OPTIONS] [FILE]\n       motion-rtl [OPTIONS] <COMMAND>",
+    after_help = help::PROGRAM
+)]
+struct Arguments {
+    #[command(flatten)]
+    voice: Voice,
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Runs a scenario, a drawing or a part program; writes waves, save file and picture.
+    #[command(after_help = help::RUN, after_long_help = help::run())]
+    Run(super::run::Arguments),
+    /// Compiles a drawing or a part program into the pattern memory's table.
+    #[command(after_help = help::TABLE)]
+    Table(super::table::Arguments),
+    /// Proves the invariants of the circuits over every state and input at small widths.
+    #[command(after_help = help::CHECK)]
+    Check(super::check::Arguments),
+    /// Puts single faults into circuits, and says which no chart, proof or law finds.
+    #[command(after_help = help::MUTATE)]
+    Mutate(super::mutate::Arguments),
+    /// Writes a circuit as Verilog, with a testbench, its stimulus and the golden waves.
+    #[command(after_help = help::VERILOG)]
+    Verilog(super::verilog::Arguments),
+    /// Holds a waveform, such as a simulator's, against a golden one, tick by tick.
+    #[command(after_help = help::COMPARE)]
+    Compare(super::compare::Arguments),
+    /// Shows how a circuit is run: its blocks, what wakes them, how often each runs.
+    #[command(after_help = help::PLAN)]
+    Plan(super::plan::Arguments),
+    /// Lists circuits with ports and widths, and scenarios; or a circuit with what it is made of.
+    #[command(after_help = help::LIST)]
+    List(super::list::Arguments),
+    /// Removes the files that runs have written into a directory, after naming them.
+    #[command(after_help = help::CLEAN)]
+    Clean(super::clean::Arguments),
+    /// Prints the completions of a shell.
+    #[cfg(feature = "shell")]
+    #[command(after_help = help::COMPLETIONS)]
+    Completions(super::shell::Completions),
+    /// Writes the man pages of the program and of its commands.
+    #[cfg(feature = "shell")]
+    #[command(after_help = help::MAN)]
+    Man(super::shell::Man),
+}
+
+/// Returns the description of the command line.
+pub fn description() -> clap::Command {
+    Arguments::command()
+}
+
+/// Runs the program.
+pub fn main() -> ExitCode {
+    let words: Vec<_> = std::env::args_os().collect();
+    voice::look_ahead(&words);
+    if let Err(failure) = limits::check() {
+        return failed(&failure);
+    }
+    signals::watch();
+    let words = match with_run(words) {
+        Ok(words) => words,
+        Err(failure) => return failed(&failure),
+    };
+    let described = description().color(voice::color());
+    let parsed = described
+        .try_get_matches_from(words)
+        .and_then(|matches| Arguments::from_arg_matches(&matches));
+    let done = match parsed {
+        Ok(Arguments { voice, command }) => {
+            voice.set();
+            run(command)
+        }
+        Err(error) if error.use_stderr() => {
+            errors::usage(&error);
+            return ExitCode::from(2);
+        }
+        // Help or the version.
+        Err(asked) => printed(asked.print()),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failed(&failure),
+    }
+}
+
+fn failed(failure: &Failure) -> ExitCode {
+    // Where standard error is gone, the exit code is all there is to say.
+    let _ = writeln!(stderr(), "{}", failure.report());
+    errors::as_json(failure);
+    failure.code()
+}
+
+/// Returns the words with `run` before the first that is neither a command nor an option of all
+/// commands.
+fn with_run(mut words: Vec<OsString>) -> Result<Vec<OsString>, Failure> {
+    let Some(at) = first_word(&words) else {
+        return Ok(words);
+    };
+    let word = words[at].to_string_lossy().into_owned();
+    let described = description();
+    let commands: Vec<_> = described
+        .get_subcommands()
+        .map(|command| command.get_name().to_owned())
+        .collect();
+    let asked = ["-h", "--help", "-V", "--version", "help"];
+    if asked.contains(&&*word) || commands.contains(&word) {
+        return Ok(words);
+    }
+    let is_path = word.starts_with('-') || word.contains(['.', '/', '\\']);
+    if !is_path && !Path::new(&words[at]).exists() {
+        let near = nearest(&word, commands.iter().map(String::as_str));
+        let near = near.map_or(String::new(), |near| format!("; did you mean {near}?"));
+        return Err(Failure::Argument {
+            field: "COMMAND",
+            problem: format!("there is no command {word}, and no file of that name{near}"),
+            allowed: format!("a file; {}", commands.join(", ")),
+        });
+    }
+    words.insert(at, "run".into());
+    Ok(words)
+}
+
+/// Returns the index of the first word that is no option of all commands.
+fn first_word(words: &[OsString]) -> Option<usize> {
+    let mut index = 1;
+    loop {
+        let word = words.get(index)?.to_str();
+        match word {
+            Some("--color") => index += 2,
+            Some(word) if voice::is_option(word) => index += 1,
+            _ => return Some(index),
+        }
+    }
+}
+
+fn run(command: Option<Command>) -> Result<(), Failure> {
+    match command {
+        None => super::run::run(&super::run::Arguments::default()),
+        Some(Command::Run(arguments)) => super::run::run(&arguments),
+        Some(Command::Table(arguments)) => super::table::table(&arguments),
+        Some(Command::Check(arguments)) => super::check::check(&arguments),
+        Some(Command::Mutate(arguments)) => super::mutate::mutate(&arguments),
+        Some(Command::Verilog(arguments)) => super::verilog::verilog(&arguments),
+        Some(Command::Compare(arguments)) => super::compare::compare(&arguments),
+        Some(Command::Plan(arguments)) => super::plan::plan(&arguments),
+        Some(Command::List(arguments)) => super::list::list(&arguments),
+        Some(Command::Clean(arguments)) => super::clean::clean(&arguments),
+        #[cfg(feature = "shell")]
+        Some(Command::Completions(arguments)) => super::shell::completions(&arguments),
+        #[cfg(feature = "shell")]
+        Some(Command::Man(arguments)) => super::shell::man(&arguments),
+    }
+}
