@@ -1,5 +1,5 @@
-//! Files that appear whole or not at all, whatever ends the program. What a loss of power leaves is
-//! up to the file system: they are not synchronised.
+//! Atomic files: they appear complete or not at all, however the program ends. Files are not
+//! synchronised to disk, so the result of a power loss depends on the file system.
 
 mod hidden;
 mod left;
@@ -15,34 +15,34 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use tempfile::NamedTempFile;
 
-/// What the names of temporary files begin with, so that those that were left are known again.
+/// Prefix of the names of temporary files, by which left-over ones are recognised.
 const PREFIX: &str = ".motion-rtl-";
-/// What they end with.
+/// Suffix of the names of temporary files.
 const SUFFIX: &str = ".part";
 
-/// A file that takes its name only when it is complete.
+/// File that takes its name only when it is complete.
 ///
-/// What is written goes to a temporary file in the same directory; [`commit`](AtomicFile::commit)
-/// renames it, which replaces an older file in one step. Where the name is a symbolic link, it is
-/// the file that it leads to which is replaced, and the temporary file stands beside that one.
-/// Dropped before it is committed, it leaves nothing. It does not buffer.
+/// Output goes to a temporary file in the same directory; [`commit`](AtomicFile::commit) renames
+/// it, which replaces an older file in one step. If the name is a symbolic link, the file at its
+/// end is replaced, and the temporary file is beside that one. If it is dropped before it is
+/// committed, nothing is left. Writes are not buffered.
 #[derive(Debug)]
 #[must_use = "a file has its name only when it is committed"]
 pub struct AtomicFile {
     file: NamedTempFile,
     _unfinished: Unfinished,
     path: PathBuf,
-    /// Where the path leads.
+    /// Path after following symbolic links.
     target: PathBuf,
 }
 
 impl AtomicFile {
-    /// Begins the file that will be called `path`.
+    /// Creates the file that will have the name `path`.
     ///
     /// # Errors
-    /// The directory does not exist or cannot be written; what has this name is a directory, a
-    /// pipe, a device, anything but a regular file; the files were [abandoned](abandon). The error
-    /// names the path.
+    /// Returns an error if the directory does not exist or cannot be written, the name belongs to
+    /// anything but a regular file, or the files were [abandoned](abandon). The error names the
+    /// path.
     pub fn create(path: impl Into<PathBuf>) -> io::Result<Self> {
         let path = path.into();
         let target = target(&path).map_err(|error| named(&path, &error))?;
@@ -50,7 +50,7 @@ impl AtomicFile {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         };
-        // Made while the list is held: a signal in between would leave it.
+        // Made while the list is locked: a signal in between would leave it behind.
         let made = unfinished(|all| {
             let all = all.as_mut().ok_or(io::ErrorKind::Interrupted)?;
             let file = temporary(directory)?;
@@ -74,8 +74,8 @@ impl AtomicFile {
     /// Gives the file its name.
     ///
     /// # Errors
-    /// The rename failed; nothing stays behind. The files were [abandoned](abandon). The error names
-    /// the path.
+    /// Returns an error if the rename failed, after which nothing is left, or the files were
+    /// [abandoned](abandon). The error names the path.
     pub fn commit(self) -> io::Result<PathBuf> {
         let path = self.path.clone();
         commit_all([self]).map(|_| path)
@@ -99,8 +99,8 @@ impl Seek for AtomicFile {
     }
 }
 
-/// The temporary files there are, and the directories made for files that are not there yet; a
-/// directory before what is in it. None once they were abandoned.
+/// Existing temporary files, and directories made for files that do not exist yet, each directory
+/// before its contents. `None` once they were abandoned.
 static UNFINISHED: Mutex<Option<Vec<PathBuf>>> = Mutex::new(Some(Vec::new()));
 
 /// Entries in that list.
@@ -121,10 +121,10 @@ fn unfinished<T>(work: impl FnOnce(&mut Option<Vec<PathBuf>>) -> T) -> T {
     work(&mut UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// Removes every temporary file, and what is empty of the directories made for them, and does what
-/// ends the program: for one that a signal ends, which drops nothing. It waits until files that are
-/// being named have their names. The files are still open; until `end` returns who begins, names or
-/// drops one waits, and from then on nothing can be begun or named.
+/// Removes all temporary files and the empty directories made for them, then calls `end`, which
+/// ends the program. This is for programs that a signal ends, without running destructors. Waits
+/// until files that are being named have their names. The files remain open; until `end` returns,
+/// threads that create, name or drop a file wait, and after that no file can be created or named.
 pub fn abandon<T>(end: impl FnOnce() -> T) -> T {
     unfinished(|all| {
         for path in all.take().into_iter().flatten().rev() {
@@ -134,26 +134,27 @@ pub fn abandon<T>(end: impl FnOnce() -> T) -> T {
     })
 }
 
-/// A directory that is there from now on; dropped while it is still empty, it goes again.
+/// Directory that exists from now on; it is removed again if it is dropped while still empty.
 #[derive(Debug)]
 #[must_use = "dropped, an empty directory goes again"]
 pub struct Directory {
-    /// What was not there before, outermost first.
+    /// Directories that did not exist before, outermost first.
     made: Unfinished,
 }
 
 impl Directory {
-    /// Creates the directory and those around it where they are missing.
+    /// Creates the directory and its missing parents.
     ///
     /// # Errors
-    /// It cannot be created; the files were [abandoned](abandon). The error names the path.
+    /// Returns an error if it cannot be created, or the files were [abandoned](abandon). The error
+    /// names the path.
     pub fn create(path: &Path) -> io::Result<Self> {
         let missing =
             |path: &&Path| !path.as_os_str().is_empty() && path.symlink_metadata().is_err();
         let made = path.ancestors().take_while(missing).map(Path::to_owned);
         let mut made: Vec<_> = made.collect();
         made.reverse();
-        // Before an error is returned, so that it clears away what that leaves.
+        // Made before an error is returned, so that it cleans up.
         let directory = Directory {
             made: Unfinished(made.clone()),
         };
@@ -173,16 +174,16 @@ impl Directory {
 impl Drop for Directory {
     fn drop(&mut self) {
         for directory in self.made.0.iter().rev() {
-            // Fails where there is something in it, which is then to stay.
+            // Fails if the directory is not empty; it must then stay.
             let _ = fs::remove_dir(directory);
         }
     }
 }
 
-/// Writes a whole file in one step, creating its directory where there is none.
+/// Writes a whole file in one step; creates its directory if necessary.
 ///
 /// # Errors
-/// The error names the path; an older file of that name is then untouched.
+/// Returns an error that names the path; an older file of that name is then untouched.
 pub fn write(path: impl Into<PathBuf>, contents: impl AsRef<[u8]>) -> io::Result<PathBuf> {
     let path = path.into();
     let _directory = path.parent().map(Directory::create).transpose()?;
@@ -191,10 +192,10 @@ pub fn write(path: impl Into<PathBuf>, contents: impl AsRef<[u8]>) -> io::Result
     file.commit()
 }
 
-/// The links that are followed from a name; as many as Linux follows.
+/// Greatest number of symbolic links followed from a name, as in Linux.
 const LINKS: usize = 40;
 
-/// The regular file that a path leads to, which need not be there yet.
+/// Returns the regular file that a path leads to; it may not exist yet.
 fn target(path: &Path) -> io::Result<PathBuf> {
     if let Ok(there) = path.metadata() {
         if there.is_dir() {
@@ -203,7 +204,7 @@ fn target(path: &Path) -> io::Result<PathBuf> {
                 "is a directory",
             ));
         }
-        // The rename would put a file in the place of the pipe or the device.
+        // The rename would replace the pipe or the device by a file.
         if !there.is_file() {
             let problem = format!("{NOT_REGULAR}, and only such a file is replaced");
             return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
@@ -212,7 +213,7 @@ fn target(path: &Path) -> io::Result<PathBuf> {
     let mut target = path.to_owned();
     for _ in 0..LINKS {
         match target.read_link() {
-            // A link is relative to where it stands.
+            // A link is relative to its own directory.
             Ok(link) => target = target.parent().unwrap_or(Path::new("")).join(link),
             Err(_) => return Ok(target),
         }
@@ -222,18 +223,18 @@ fn target(path: &Path) -> io::Result<PathBuf> {
 
 const DANGLES: &str = "is a link to what is not there";
 
-/// The link on a path that leads to nothing.
+/// Returns the dangling symbolic link on a path.
 fn dangling(path: &Path) -> Option<PathBuf> {
     let dangles = |path: &&Path| path.is_symlink() && !path.exists();
     path.ancestors().find(dangles).map(Path::to_owned)
 }
 
-/// An error with the path that it is about.
+/// Error with the path that it is about.
 #[derive(Debug, thiserror::Error)]
 #[error("{text}")]
 struct Named {
     text: String,
-    /// Number by which the system knows it.
+    /// Error number of the system.
     code: Option<i32>,
 }
 
@@ -243,7 +244,7 @@ fn named(path: &Path, error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), Named { text, code })
 }
 
-/// True if an error of this module, or of the system, is that too many files are open.
+/// True if an error of this module or of the system means that too many files are open.
 pub fn too_many_open(error: &io::Error) -> bool {
     let named = error
         .get_ref()

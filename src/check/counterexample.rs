@@ -6,26 +6,26 @@ use crate::trace::{self, Clock};
 use std::fmt::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-/// The ticks that the table shows, counted back from the violation.
+/// Number of ticks in the table, counted back from the violation.
 const TICKS: usize = 8;
-/// The signals that the table shows.
+/// Greatest number of signals in the table.
 const ROWS: usize = 40;
 
-/// A shortest input sequence that violates an invariant.
+/// Shortest input sequence that violates an invariant.
 ///
-/// It prints as what is wrong at which tick, and a table of the last ticks.
+/// Prints the violation with its tick, and a table of the last ticks.
 pub struct Counterexample<C: Circuit> {
-    /// The inputs from power-on, the last one those of the tick at fault.
+    /// Inputs from power-on; the last are those of the tick at fault.
     pub inputs: Vec<C::In<Value>>,
-    /// The tick at fault.
+    /// Tick at fault.
     pub tick: u64,
-    /// The invariant that is violated.
+    /// Violated invariant.
     pub invariant: String,
-    /// The signals at fault.
+    /// Signals at fault.
     pub signals: Vec<String>,
-    /// What is wrong with them.
+    /// Description of the violation.
     pub message: String,
-    /// The inputs, port by port.
+    /// Inputs, port by port.
     ports: Vec<Vec<u64>>,
     table: String,
 }
@@ -49,11 +49,11 @@ impl<C: Circuit> Counterexample<C> {
         }
     }
 
-    /// Replays it on `circuit` and writes the waves and their save file into `dir`, named for the
-    /// circuit and the invariant. Returns their paths.
+    /// Replays the sequence on `circuit` and writes the waves and their save file into `dir`,
+    /// named after circuit and invariant. Returns their paths.
     ///
     /// # Errors
-    /// The files cannot be written.
+    /// Returns an error if the files cannot be written.
     pub fn save(&self, circuit: &C, clock: Clock, dir: &Path) -> Result<Vec<PathBuf>, RunError> {
         let stem = stem(circuit.name(), &self.invariant);
         trace::play(
@@ -84,7 +84,7 @@ impl<C: Circuit> fmt::Debug for Counterexample<C> {
     }
 }
 
-/// The name of its files.
+/// Returns the stem of the file names.
 fn stem(circuit: &str, invariant: &str) -> String {
     format!("{circuit} {invariant}")
         .chars()
@@ -92,14 +92,14 @@ fn stem(circuit: &str, invariant: &str) -> String {
         .collect()
 }
 
-/// What stands above its table.
+/// Returns the text above the table.
 fn report(tick: u64, invariant: &str, message: &str, signals: &[String]) -> String {
     let signals = signals.join(", ");
     format!("tick {tick}: {invariant}: {message} (signals: {signals})\n")
 }
 
-/// The last ticks, a signal a row, those at fault first and marked; in the last column the
-/// registers after the edge.
+/// Returns the table of the last ticks, one signal per row. Signals at fault come first and are
+/// marked; the last column shows the registers after the edge.
 fn table(model: &Model, inputs: &[Vec<u64>], at_fault: &[String]) -> String {
     let leaves = &model.declarations().leaves;
     let mut engine = model.engine(Watch::All);
@@ -145,13 +145,13 @@ fn table(model: &Model, inputs: &[Vec<u64>], at_fault: &[String]) -> String {
     table
 }
 
-/// Whether `name` is `path` or its end from a dot on.
+/// True if `name` is `path`, or its end after a dot.
 fn names(name: &str, path: &str) -> bool {
     path.strip_suffix(name)
         .is_some_and(|rest| rest.is_empty() || rest.ends_with('.'))
 }
 
-/// Rows under each other: the first column flush left, the others flush right.
+/// Aligns rows: the first column to the left, the others to the right.
 fn aligned(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {

@@ -2,30 +2,30 @@ use crate::hdl::{Declarations, Described, LeafView as View, Role, RunError};
 use std::fmt;
 use std::ops::{ControlFlow, Range};
 
-/// Which bits a run has seen both low and high: what the run is worth as evidence.
+/// Bits that a run has seen both low and high, which tells how much evidence the run is.
 ///
-/// A memory counts as one word: a bit of it is covered when one of its words had it high and one
-/// had it low.
+/// A memory counts as one word: a bit of it is covered if one of its words had it high and one had
+/// it low.
 #[derive(Debug)]
 pub struct Coverage {
     signals: Vec<Signal>,
     seen: Vec<Seen>,
-    /// The signal of each leaf.
+    /// Signal of each leaf.
     of_leaf: Vec<usize>,
-    /// The tick seen last.
+    /// Tick seen last.
     last: Option<u64>,
 }
 
 /// Bits of a signal that a run has seen at one level only.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Untoggled {
-    /// The signal or memory: scopes and name joined by dots.
+    /// Signal or memory: scopes and name joined by dots.
     pub path: String,
-    /// Port in, register or net.
+    /// Input port, register or net.
     pub role: Role,
-    /// Its width in bits.
+    /// Width in bits.
     pub width: usize,
-    /// The bits that were always low or always high.
+    /// Bits that were always low or always high.
     pub bits: u64,
 }
 
@@ -39,12 +39,12 @@ impl fmt::Display for Untoggled {
 }
 
 impl Coverage {
-    /// Nothing seen yet of a circuit of this kind.
+    /// Creates a coverage of a circuit with nothing seen.
     pub fn new(circuit: &impl Described) -> Self {
         Self::of(&circuit.outlined().1)
     }
 
-    /// The same of a circuit whose type is forgotten.
+    /// Creates a coverage of declared signals.
     pub(super) fn of(declarations: &Declarations) -> Self {
         let mut memories = declarations.memories.iter().peekable();
         let mut signals = Vec::new();
@@ -82,7 +82,7 @@ impl Coverage {
         }
     }
 
-    /// Sees a settled tick.
+    /// Records a settled tick.
     pub(super) fn tick(&mut self, tick: u64, view: View<'_>) {
         let follows = self.last.replace(tick).is_some_and(|last| last + 1 == tick);
         let engine = view.engine;
@@ -94,7 +94,7 @@ impl Coverage {
             }
             return;
         }
-        // What has not changed was seen before.
+        // Unchanged words were recorded before.
         let plan = engine.program().plan();
         engine.changed(|place| {
             let watched = &plan.layout.watched[place];
@@ -105,7 +105,7 @@ impl Coverage {
                 }
             };
             match watched.memory.map(|memory| memory as usize) {
-                // A stage that is shifted was seen where it came in.
+                // A shifted stage was recorded where it came in.
                 Some(memory) => match plan.memories[memory].head {
                     Some(_) => watched.leaves.first().copied().into_iter().for_each(see),
                     None => {
@@ -118,14 +118,14 @@ impl Coverage {
         });
     }
 
-    /// The bits seen at both levels, and all bits there are.
+    /// Returns the number of bits seen at both levels, and the number of all bits.
     pub fn bits(&self) -> (u64, u64) {
         let all: usize = self.signals.iter().map(|signal| signal.width).sum();
         let untoggled: u32 = self.untoggled().map(|left| left.bits.count_ones()).sum();
         (all as u64 - u64::from(untoggled), all as u64)
     }
 
-    /// Number of signals; a memory is one.
+    /// Returns the number of signals; a memory counts as one.
     pub fn signals(&self) -> usize {
         self.signals.len()
     }
@@ -137,7 +137,8 @@ impl Coverage {
             .filter(move |signal| signal.bits == all(signal))
     }
 
-    /// The signals with bits that were always low or always high, in the order of the walk.
+    /// Returns the signals with bits that were always low or always high, in the order of the
+    /// walk.
     pub fn untoggled(&self) -> impl Iterator<Item = Untoggled> {
         let seen = self.signals.iter().zip(&self.seen);
         seen.filter_map(|(signal, seen)| {
@@ -167,7 +168,7 @@ struct Signal {
     leaves: Range<usize>,
 }
 
-/// The bits that were low once, and those that were high once.
+/// Bits that were low once, and bits that were high once.
 #[derive(Debug, Clone, Copy, Default)]
 struct Seen {
     low: u64,

@@ -5,37 +5,39 @@ use crate::hdl::{Described, LeafView as View, Model, RunError};
 use crate::trace::{Clock, Dump, Layout, Lines, Options, VcdFile};
 use std::io::{self, Write};
 
-/// How long a circuit is driven, and by what.
+/// Length and inputs of a random run.
 #[derive(Debug, Clone, Copy)]
 pub struct Drive {
-    /// The seed of the [`Stimulus`].
+    /// Seed of the [`Stimulus`].
     pub seed: u64,
-    /// The number of ticks.
+    /// Number of ticks.
     pub ticks: u64,
-    /// Now and then a tick has a synchronous reset.
+    /// True if some ticks have a synchronous reset.
     pub resets: bool,
-    /// The clock of the waves.
+    /// Clock of the waves.
     pub clock: Clock,
 }
 
-/// What came of a [`drive`].
+/// Result of a [`drive`].
 #[derive(Debug)]
 pub struct Driven {
-    /// The ticks with reset.
+    /// Number of ticks with reset.
     pub resets: u64,
-    /// Which bits the run has seen at both levels.
+    /// Bits that the run has seen at both levels.
     pub coverage: Coverage,
 }
 
-/// Drives a circuit from power-on with random inputs, and writes all of its signals as waves and
-/// what went into it as a [`StimulusFile`](crate::trace::StimulusFile): with both, another form of
-/// the circuit can be held against this one, tick by tick. The same [`Drive`] gives the same bytes.
+/// Drives a circuit from power-on with random inputs. Writes all its signals as waves, and its
+/// inputs as a [`StimulusFile`](crate::trace::StimulusFile). With both, another implementation of
+/// the circuit can be compared with this one, tick by tick. The same [`Drive`] gives the same
+/// bytes.
 ///
-/// Records, targets and steps are written whole and started, in turns with ticks in which every port
-/// of a [`Stimulus`] is random. [`Coverage::still`] names the signals that never changed.
+/// Records, targets and steps are written whole and started, alternating with ticks in which every
+/// port of a [`Stimulus`] is random. [`Coverage::still`] names the signals that never changed.
 ///
 /// # Errors
-/// A writer failed; a name that is used twice in a scope or that waves cannot carry.
+/// Returns an error if a writer failed, or a name is duplicate in a scope or cannot be written to
+/// waves.
 pub fn drive(
     circuit: &impl Described,
     drive: &Drive,
@@ -46,10 +48,10 @@ pub fn drive(
 }
 
 impl Drive {
-    /// [`drive`] of a circuit whose type is forgotten.
+    /// Drives an elaborated circuit as [`drive`] does.
     ///
     /// # Errors
-    /// As [`drive`].
+    /// Returns the errors of [`drive`].
     pub fn run(
         &self,
         model: &Model,

@@ -2,22 +2,22 @@ use crate::engine::EngineError;
 use crate::hdl::pack::{bits_of, input_widths, inputs};
 use crate::hdl::{Circuit, Value};
 
-/// More bits than can be enumerated.
+/// Number of bits that is too large to enumerate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("{what} have {bits} bits, at most {most} can be enumerated")]
 pub struct TooWide {
-    /// What is too wide.
+    /// Name of the quantity.
     pub what: &'static str,
-    /// How wide it is.
+    /// Width in bits.
     pub bits: usize,
-    /// How wide it may be.
+    /// Greatest allowed width in bits.
     pub most: usize,
 }
 
-/// Why a circuit cannot be checked.
+/// Reason why a circuit cannot be checked.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CheckError {
-    /// There is too much to enumerate.
+    /// Too many bits to enumerate.
     #[error(transparent)]
     TooWide(#[from] TooWide),
     /// The circuit cannot be run.
@@ -28,7 +28,7 @@ pub enum CheckError {
 crate::hdl::debug_as_display!(CheckError);
 
 impl TooWide {
-    /// That so many bits are at most `most`.
+    /// Returns an error if there are more than `most` bits.
     pub(crate) fn check_bits(what: &'static str, bits: usize, most: usize) -> Result<(), Self> {
         match bits > most {
             true => Err(TooWide { what, bits, most }),
@@ -37,39 +37,39 @@ impl TooWide {
     }
 }
 
-/// All inputs of a circuit, in the order of their packed bits.
+/// Returns all inputs of a circuit, in the order of their packed bits.
 ///
 /// # Errors
-/// They have more than 63 bits; that many would not come to an end anyway.
+/// Returns an error if they have more than 63 bits; an enumeration would not end anyway.
 pub fn all<C: Circuit>(circuit: &C) -> Result<impl Iterator<Item = C::In<Value>>, TooWide> {
     let bits = input_widths(circuit).iter().sum();
     TooWide::check_bits("the signals", bits, 63)?;
     Ok((0..1u64 << bits).map(|word| inputs(circuit, bits_of(word))))
 }
 
-/// A stream of random words, the same on every machine for the same seed (SplitMix64).
+/// Stream of random words that depends on the seed only, not on the machine (SplitMix64).
 #[derive(Debug, Clone)]
 pub struct Random(u64);
 
 impl Random {
-    /// The stream that `seed` names.
+    /// Creates the stream of a seed.
     pub const fn new(seed: u64) -> Self {
         Random(seed)
     }
 
-    /// The next 64 random bits.
+    /// Returns the next 64 random bits.
     pub fn word(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         scramble(self.0)
     }
 
-    /// Random inputs of a circuit.
+    /// Returns random inputs of a circuit.
     pub fn inputs<C: Circuit>(&mut self, circuit: &C) -> C::In<Value> {
         inputs(circuit, |_| self.word())
     }
 }
 
-/// Spreads every bit of a word over all of it; a bijection.
+/// Spreads every bit of a word over the whole word; a bijection.
 #[inline]
 pub(crate) const fn scramble(word: u64) -> u64 {
     let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn the_stream_is_splitmix() {
-        // The first words for seed 1234567 of the reference implementation.
+        // First words of the reference implementation for seed 1234567.
         let mut random = Random::new(1_234_567);
         let words = [random.word(), random.word(), random.word()];
         assert_eq!(

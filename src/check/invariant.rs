@@ -3,22 +3,22 @@ use crate::hdl::{self, Circuit, Model, Observer, Registers, RunError, Sample};
 use std::fmt;
 use std::ops::ControlFlow;
 
-/// What an invariant found wrong.
+/// Violation found by an invariant.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
-    /// The signals at fault.
+    /// Signals at fault.
     pub signals: Vec<String>,
-    /// What is wrong with them.
+    /// Description of the violation.
     pub message: String,
 }
 
-/// The answer of an invariant.
+/// Result of an invariant.
 pub type Verdict = Result<(), Fault>;
 
-/// `Ok` where `holds`; otherwise these signals are at fault, and `message` says why.
+/// Returns `Ok` if `holds` is true, else a fault with these signals and `message`.
 ///
 /// # Errors
-/// Where it does not hold.
+/// Returns a [`Fault`] if `holds` is false.
 pub fn require<const N: usize>(
     holds: bool,
     signals: [&str; N],
@@ -41,16 +41,16 @@ enum Holds<'f, C: Circuit> {
     Step(Box<Step<'f, C>>),
 }
 
-/// The names of invariants, and which of them are the circuit's own. Nothing of it depends on the
-/// circuit's type.
+/// Names of the invariants, and signals of those that are the circuit's own. Does not depend on
+/// the circuit's type.
 #[derive(Debug, Default)]
 struct Names {
-    /// In the order in which they are checked.
+    /// Names in the order of the checks.
     all: Vec<String>,
-    /// The signals that the circuit's own are about; these come first, in their own order. A step
-    /// property is one of what this edge is about to do.
+    /// Signals of the circuit's own properties; these come first, in their order. A step property
+    /// is about the coming edge.
     own: Vec<&'static [&'static str]>,
-    /// Whether one of the others looks at the registers after the edge.
+    /// True if another property reads the registers after the edge.
     look_ahead: bool,
 }
 
@@ -68,7 +68,7 @@ impl Names {
         names
     }
 
-    /// The first of the circuit's own that does not hold.
+    /// Returns the first violated property of the circuit's own.
     fn violated(&self, engine: &Engine) -> Option<(&str, Fault)> {
         let index = (0..self.own.len()).find(|index| !engine.property(*index))?;
         let fault = Fault {
@@ -78,25 +78,25 @@ impl Names {
         Some((&self.all[index], fault))
     }
 
-    /// The numbers of the circuit's own, if there are no others.
+    /// Returns the indices of the circuit's own properties, if there are no others.
     fn only_own(&self) -> Option<Vec<usize>> {
         (self.own.len() == self.all.len()).then(|| (0..self.own.len()).collect())
     }
 }
 
-/// Named properties that hold on every tick: proved by [`reach`](super::reach()), watched by a
-/// [`Monitor`].
+/// Named properties that must hold in every tick: proved by [`reach`](super::reach()), checked in
+/// a run by a [`Monitor`].
 ///
-/// They are checked in the order in which they were added. A property must not depend on
-/// [`Sample::tick`]: `reach` comes to every transition once, on a shortest way.
+/// Properties are checked in the order in which they were added. A property must not depend on
+/// [`Sample::tick`]: `reach` checks every transition once, on a shortest path.
 pub struct Invariants<'f, C: Circuit> {
     names: Names,
-    /// Those that are not the circuit's own.
+    /// Invariants that are not the circuit's own.
     others: Vec<Holds<'f, C>>,
 }
 
 impl<'f, C: Circuit> Invariants<'f, C> {
-    /// None.
+    /// Creates an empty set.
     pub fn new() -> Self {
         Invariants {
             names: Names::default(),
@@ -104,9 +104,9 @@ impl<'f, C: Circuit> Invariants<'f, C> {
         }
     }
 
-    /// The circuit's [properties](Circuit::properties).
+    /// Creates the set of the circuit's [properties](Circuit::properties).
     ///
-    /// Of what is no netlist there are none: neither is there a proof of it, nor a run.
+    /// A circuit that cannot be elaborated has none; it can be neither proved nor run.
     pub fn of(circuit: &C) -> Self {
         Invariants {
             names: Names::of(hdl::model(circuit)),
@@ -139,22 +139,22 @@ impl<'f, C: Circuit> Invariants<'f, C> {
         self
     }
 
-    /// Their names, in order.
+    /// Returns the names, in order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.names.all.iter().map(String::as_str)
     }
 
-    /// The numbers of the circuit's own properties, if there are no others.
+    /// Returns the indices of the circuit's own properties, if there are no others.
     pub(super) fn own(&self) -> Option<Vec<usize>> {
         self.names.only_own()
     }
 
-    /// Whether one of them looks at the registers after the edge.
+    /// True if a property reads the registers after the edge.
     pub(super) fn look_ahead(&self) -> bool {
         self.names.look_ahead
     }
 
-    /// The first that is violated, and how. Without `next`, step properties are left out.
+    /// Returns the first violation. Without `next`, step properties are skipped.
     #[inline]
     pub(super) fn check(
         &self,
@@ -190,7 +190,7 @@ impl<C: Circuit> fmt::Debug for Invariants<'_, C> {
     }
 }
 
-/// Watches invariants during a simulated run and ends it at the first violation.
+/// Checks invariants during a simulated run and ends it at the first violation.
 #[derive(Debug)]
 pub struct Monitor<'a, C: Circuit> {
     invariants: &'a Invariants<'a, C>,
@@ -198,9 +198,9 @@ pub struct Monitor<'a, C: Circuit> {
 }
 
 impl<'a, C: Circuit> Monitor<'a, C> {
-    /// A monitor for runs of a circuit.
+    /// Creates a monitor for runs of a circuit.
     ///
-    /// A step property costs a copy of all registers per tick, with the memories among them.
+    /// A step property costs a copy of all registers per tick, including the memories.
     pub fn new(invariants: &'a Invariants<'a, C>) -> Self {
         Monitor {
             invariants,

@@ -9,30 +9,30 @@ use crate::trace::value::number;
 use std::fmt;
 use std::ops::ControlFlow;
 
-/// Why two circuits cannot be compared.
+/// Reason why two circuits cannot be compared.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum LockstepError {
-    /// Ports out that only one of the circuits has.
+    /// Output ports that only one of the circuits has.
     #[error("ports out without partner: {}", .0.join(", "))]
     Unpaired(Vec<String>),
-    /// A signal that was asked for is not there, or is there twice.
+    /// A requested signal does not exist, or exists twice.
     #[error("{circuit} has not exactly one signal {signal}")]
     NoSuchSignal {
-        /// The circuit.
+        /// Circuit.
         circuit: &'static str,
-        /// The signal.
+        /// Signal.
         signal: String,
     },
-    /// There is nothing to compare.
+    /// Empty comparison.
     #[error("there is no signal to compare")]
     Nothing,
 }
 
-/// The comparison of two circuits on every tick.
+/// Comparison of two circuits in every tick.
 ///
-/// Values are compared as numbers, so a signal may be wider in one of them. Use
-/// [`compare`](Self::compare) as an invariant with `reach` to prove that two circuits agree under
-/// every input sequence, or the whole as an observer of a run.
+/// Values are compared as numbers, so a signal may be wider in one circuit. Use
+/// [`compare`](Self::compare) as an invariant of `reach` to prove that two circuits agree under
+/// every input sequence, or a `Lockstep` as an observer of a run.
 ///
 /// ```no_run
 /// # use motion_rtl::{check::{Invariants, Lockstep, Pair, reach}, hdl::Circuit};
@@ -49,7 +49,7 @@ pub struct Lockstep {
     unpaired: Vec<String>,
 }
 
-/// Two signals that shall be equal: their places in the walk of each circuit, and their paths.
+/// Two signals that must be equal: their leaves in each circuit, and their paths.
 #[derive(Debug, Clone)]
 struct Compared {
     left: (usize, Shape),
@@ -58,10 +58,10 @@ struct Compared {
 }
 
 impl Lockstep {
-    /// Compares the ports out (public registers and nets) of the same name.
+    /// Compares the output ports (public registers and nets) of equal names.
     ///
     /// # Errors
-    /// There are ports out without partner, or no ports out at all.
+    /// Returns an error if an output port has no partner, or there are none.
     pub fn by_name<A: Circuit, B: Circuit>(pair: &Pair<A, B>) -> Result<Self, LockstepError> {
         let names: Vec<_> = ports_out(&pair.left);
         let names: Vec<_> = names
@@ -79,10 +79,10 @@ impl Lockstep {
         }
     }
 
-    /// Compares the signals named in pairs, left and right: registers and nets, public or not.
+    /// Compares pairs of named signals, left and right: registers and nets, public or not.
     ///
     /// # Errors
-    /// One of them does not exist, or the list is empty.
+    /// Returns an error if a signal does not exist, or the list is empty.
     pub fn of<A: Circuit, B: Circuit>(
         pair: &Pair<A, B>,
         signals: &[(&str, &str)],
@@ -99,8 +99,8 @@ impl Lockstep {
     ) -> Result<Self, LockstepError> {
         let (left, right) = (Leaves::of(&pair.left), Leaves::of(&pair.right));
         let ports = input_widths(&pair.left).len();
-        // The registers of both come before the nets of both, each with its ports in, those of the
-        // left one first.
+        // The registers of both circuits come before the nets of both, each with its input ports;
+        // the left circuit comes first.
         let of_left = |place: usize| match place.checked_sub(left.registers) {
             None => place,
             Some(net) => left.registers + right.registers + ports + net,
@@ -139,15 +139,15 @@ impl Lockstep {
         Ok(Lockstep { compared, unpaired })
     }
 
-    /// The ports out that are not compared.
+    /// Returns the output ports that are not compared.
     pub fn unpaired(&self) -> &[String] {
         &self.unpaired
     }
 
-    /// The first signal in which the two circuits differ, as an invariant.
+    /// Compares all signals in this tick; returns the first difference as a fault.
     ///
     /// # Errors
-    /// They differ.
+    /// Returns a [`Fault`] if the circuits differ.
     pub fn compare<A: Circuit, B: Circuit>(&self, now: &Sample<'_, Pair<A, B>>) -> Verdict {
         let engine = now.engine();
         for Compared {
@@ -195,7 +195,7 @@ impl<A: Circuit, B: Circuit> Observer<Pair<A, B>> for Lockstep {
     }
 }
 
-/// A leaf of the pair behind its ports in, as a number.
+/// Returns the number in a leaf of the pair, counted after the input ports.
 fn value(engine: &Engine, (leaf, shape): (usize, Shape)) -> i128 {
     let first = engine.flat().part(Role::Register).start;
     number(shape, engine.word(first + leaf))
@@ -205,20 +205,20 @@ fn ports_out<C: Circuit>(circuit: &C) -> Vec<String> {
     Leaves::of(circuit).public().map(str::to_owned).collect()
 }
 
-/// The leaves of the registers and nets of one circuit.
+/// Leaves of the registers and nets of one circuit.
 #[derive(Default)]
 struct Leaves {
     leaves: Vec<Leaf>,
-    /// How many are registers, the first ones.
+    /// Number of registers; they come first.
     registers: usize,
     path: Path,
-    /// For every struct entered, whether it and all around it are public.
+    /// For every struct entered: true if it and all structs around it are public.
     public: Vec<bool>,
 }
 
 struct Leaf {
     name: String,
-    /// Whether it is a port out.
+    /// True if the leaf is an output port.
     public: bool,
     shape: Shape,
 }
@@ -293,7 +293,7 @@ impl Outline for Leaves {
         self.push(field, shape, field.public);
     }
     fn memory(&mut self, field: &'static Field, label: &'static Field, words: usize, width: usize) {
-        // The words of a memory are as visible as the memory.
+        // Words of a memory are as visible as the memory.
         self.enter(field);
         for index in 0..words {
             self.element(index);

@@ -1,19 +1,19 @@
-//! Proofs by exhaustion, shortest counterexamples, comparison of two circuits.
+//! Exhaustive proofs, shortest counterexamples, comparison of two circuits.
 //!
-//! [`reach`] visits every state a circuit can reach from power-on under every input, and checks
-//! [`Invariants`] on every transition. At the small widths at which that ends, it is a proof over
-//! all input sequences of any length. [`sweep()`] checks a [`Law`] on every case of a finite space,
-//! many side by side, where words are too wide for that. [`Monitor`] checks the same invariants
-//! along a simulated run, at any width. [`Pair`] and [`Lockstep`] turn "these two circuits do the
-//! same" into such an invariant. [`drive()`] runs a circuit on a random [`Stimulus`] and writes
-//! waves and stimulus, for a comparison with another form of the circuit, its HDL say; [`Coverage`]
-//! tells which bits that run has moved.
+//! [`reach`] visits every state that a circuit can reach from power-on under any input, and checks
+//! [`Invariants`] on every transition. At widths small enough for that to finish, it proves them
+//! for all input sequences of any length. [`sweep()`] checks a [`Law`] on every case of a finite
+//! space, for words that are too wide for that; it evaluates many cases at once. [`Monitor`]
+//! checks the same invariants along a simulated run, at any width. [`Pair`] and [`Lockstep`] turn
+//! the equivalence of two circuits into such an invariant. [`drive()`] runs a circuit on a random
+//! [`Stimulus`] and writes waves and stimulus, to compare it with another implementation such as
+//! its Verilog; [`Coverage`] tells which bits that run has moved.
 //!
-//! # What is not in the state
+//! # State of the past
 //!
 //! An invariant sees one transition. A property of the past ("two ticks of `unit_rst` are never
-//! adjacent") needs a memory of the past: a circuit that contains the circuit under test and, next
-//! to it, ghost registers that no hardware will have.
+//! adjacent") needs memory: a circuit that contains the circuit under test and ghost registers
+//! beside it, which no hardware will have.
 //!
 //! ```
 //! use motion_rtl::circuits::blocks::{EnableCounter, enable_counter};

@@ -8,28 +8,27 @@ use crate::hdl::{Field, Role, Shape};
 use std::fmt;
 use std::ops::Deref;
 
-/// Two circuits side by side on the same inputs: those of the left one, whose ports in the right one
-/// has too.
+/// Two circuits side by side with the same inputs: those of the left circuit; the right one has
+/// the same ports.
 ///
-/// Each stands in a scope of its own name or, where both have the same name, in `left` and
-/// `right`.
+/// Each is in a scope of its own name or, if both have the same name, in `left` and `right`.
 #[derive(Debug, Clone)]
 pub struct Pair<A, B> {
-    /// The one.
+    /// Left circuit; its input ports are those of the pair.
     pub left: A,
-    /// The other.
+    /// Right circuit.
     pub right: B,
 }
 
 impl<A: Circuit, B: Circuit> Pair<A, B> {
-    /// The scopes of the circuits.
+    /// Scopes of the circuits.
     pub(super) const SCOPES: [&'static str; 2] = match same(A::NAME, B::NAME) {
         true => ["left", "right"],
         false => [A::NAME, B::NAME],
     };
 }
 
-/// `==` on strings is not yet `const`.
+/// True if two strings are equal; `==` on strings is not `const`.
 const fn same(a: &str, b: &str) -> bool {
     let (a, b) = (a.as_bytes(), b.as_bytes());
     if a.len() != b.len() {
@@ -45,14 +44,14 @@ const fn same(a: &str, b: &str) -> bool {
     true
 }
 
-/// The ports in of a [`Pair`]: those of the left circuit.
+/// Input ports of a [`Pair`]: those of the left circuit.
 pub struct PairIn<A: Circuit, V: View = Wire>(pub A::In<V>);
 
-/// The circuits of a [`Pair`].
+/// Circuits of a [`Pair`].
 pub struct Sides<A: Circuit, B: Circuit, V: View = Wire> {
-    /// The left one.
+    /// Left circuit.
     pub left: V::Part<A>,
-    /// The right one.
+    /// Right circuit.
     pub right: V::Part<B>,
 }
 
@@ -125,7 +124,7 @@ impl<A: Circuit, B: Circuit, V: View> Walk<V> for Sides<A, B, V> {
     fn words(&self, _: &mut Vec<u64>) {}
 }
 
-/// The ports in of a circuit: names and shapes.
+/// Returns names and shapes of a circuit's input ports.
 fn ports<C: Circuit>(circuit: &C) -> Vec<(String, Shape)> {
     let mut ports = Counted::default();
     circuit.make_shapes(Role::Input, &mut ports);
@@ -165,7 +164,7 @@ impl<A: Circuit, B: Circuit> Circuit for Pair<A, B> {
             .map(|token| token as usize)
             .collect();
         p.left.settle(i.0);
-        // There are as many ports: otherwise there was an objection.
+        // Both have the same number of ports; `objection` has checked that.
         let mut again = Nodes(nodes.iter());
         let i = B::In::make(&self.right, view::role(Role::Input), &mut again);
         p.right.settle(i);

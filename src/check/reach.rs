@@ -11,51 +11,51 @@ use crate::hdl::{self, Circuit, Model, Registers, Sample, Value};
 use std::cell::RefCell;
 use std::fmt;
 
-/// The widest inputs: all their values are tried in every state.
+/// Greatest width of the inputs in bits: all their values are tried in every state.
 const INPUT_BITS: usize = 20;
-/// The widest registers: a state is one word.
+/// Greatest width of the registers in bits: a state is one word.
 const STATE_BITS: usize = 64;
 
-/// Every reachable state satisfies the invariants under every input.
+/// Proof that every reachable state satisfies the invariants under every input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Proof {
-    /// The reachable states.
+    /// Number of reachable states.
     pub states: u64,
-    /// The pairs of a reachable state and an input that is assumed possible in it.
+    /// Number of pairs of a reachable state and an input that the assumptions allow in it.
     pub transitions: u64,
-    /// How many edges the farthest state is from power-on.
+    /// Distance of the farthest state from power-on, in edges.
     pub depth: u64,
-    /// The states in which no input is assumed possible. Where that is not meant, the assumption
-    /// contradicts itself and proves less than it seems to.
+    /// Number of states in which no input is allowed. If that is not intended, the assumptions
+    /// contradict each other and the proof covers less than it seems to.
     pub dead_ends: u64,
 }
 
-/// How far a search is.
+/// Progress of a search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Progress {
-    /// The states found.
+    /// Number of states found.
     pub states: u64,
-    /// Those of them that are yet to be tried with every input.
+    /// Number of states found but not yet tried with every input.
     pub frontier: u64,
-    /// The transitions checked.
+    /// Number of transitions checked.
     pub transitions: u64,
-    /// How many edges from power-on the search is.
+    /// Distance of the search from power-on, in edges.
     pub depth: u64,
 }
 
-/// How a search ended.
+/// Result of a search.
 #[must_use = "a counterexample is seen by looking at it"]
 pub enum Outcome<C: Circuit> {
-    /// The invariants hold.
+    /// All invariants hold.
     Proof(Proof),
-    /// An invariant does not hold; no shorter input sequence violates any.
+    /// An invariant is violated; no shorter input sequence violates any.
     Counterexample(Box<Counterexample<C>>),
-    /// There are more states than the limit: nothing is proved, and no violation was found yet.
+    /// The limit was reached: nothing is proved, and no violation was found so far.
     Limit(Progress),
 }
 
 impl<C: Circuit> Outcome<C> {
-    /// The proof, if it is one.
+    /// Returns the proof, if this is one.
     pub fn proof(&self) -> Option<Proof> {
         match self {
             Outcome::Proof(proof) => Some(*proof),
@@ -63,7 +63,7 @@ impl<C: Circuit> Outcome<C> {
         }
     }
 
-    /// The counterexample, if it is one.
+    /// Returns the counterexample, if this is one.
     pub fn counterexample(self) -> Option<Counterexample<C>> {
         match self {
             Outcome::Counterexample(found) => Some(*found),
@@ -105,7 +105,7 @@ impl<C: Circuit> fmt::Debug for Outcome<C> {
 type Only<'a, C> = dyn Fn(&<C as Circuit>::In<Value>) -> bool + 'a;
 type Assume<'a, C> = dyn Fn(&Registers<C>, &<C as Circuit>::In<Value>) -> bool + 'a;
 
-/// A search to be run; see [`reach`].
+/// Prepared search; see [`reach`].
 #[must_use = "nothing is searched before it runs"]
 pub struct Reach<'a, C: Circuit> {
     circuit: &'a C,
@@ -119,11 +119,11 @@ pub struct Reach<'a, C: Circuit> {
     bitmap_bits: usize,
 }
 
-/// Prepares a search through every state that `circuit` reaches from power-on under every input,
-/// breadth first; [`run`](Reach::run) ends in a proof of the invariants or in a shortest
+/// Prepares a breadth-first search through every state that `circuit` reaches from power-on under
+/// every input. [`run`](Reach::run) returns a proof of the invariants or a shortest
 /// counterexample.
 ///
-/// The same circuit gives the same outcome on every run.
+/// The outcome is the same in every run.
 #[must_use = "nothing is searched before it runs"]
 pub fn reach<'a, C: Circuit>(circuit: &'a C, invariants: &'a Invariants<'a, C>) -> Reach<'a, C> {
     Reach {
@@ -140,65 +140,67 @@ pub fn reach<'a, C: Circuit>(circuit: &'a C, invariants: &'a Invariants<'a, C>) 
 }
 
 impl<'a, C: Circuit> Reach<'a, C> {
-    /// Leaves out the inputs that are never applied, whatever the state: sorted out once, they cost
-    /// nothing in each state, as those that an assumption excludes do.
+    /// Restricts the inputs, whatever the state. Excluded inputs are removed once and cost nothing
+    /// in each state, unlike those that [`assume`](Self::assume) excludes.
     pub fn inputs(mut self, possible: impl Fn(&C::In<Value>) -> bool + 'a) -> Self {
         self.only = Some(Box::new(possible));
         self
     }
 
-    /// Leaves out the inputs that the surroundings never apply in a state; of several assumptions
-    /// all hold.
+    /// Restricts the inputs that are possible in a state; all assumptions must hold.
     pub fn assume(mut self, possible: impl Fn(&Registers<C>, &C::In<Value>) -> bool + 'a) -> Self {
         self.assume.push(Box::new(possible));
         self
     }
 
-    /// Ends the search undecided where there are more states than this; unless set, 2^26. A state
-    /// takes 16 bytes, and as many more where the visited set is no bitmap.
+    /// Ends the search undecided if there are more states than this; 2^26 by default. A state
+    /// takes 16 bytes, and another 16 if the visited set is not a bitmap.
     pub fn limit(mut self, states: u32) -> Self {
         self.limit = states;
         self
     }
 
-    /// Ends the search undecided after this many transitions; unless set, after all there are.
+    /// Ends the search undecided after this number of transitions; unlimited by default.
     pub fn transitions(mut self, transitions: u64) -> Self {
         self.transitions = transitions;
         self
     }
 
-    /// Searches this netlist of the circuit: one that was elaborated before, or with a fault in it.
+    /// Searches this netlist of the circuit: one that was elaborated before, or that has a fault.
     pub fn model(mut self, model: Model) -> Self {
         self.model = Some(model);
         self
     }
 
-    /// Keeps the visited set as a bitmap where the registers have at most `bits` bits, unless set
-    /// 32 (512 MiB, of which only the pages in use become resident), at most 36; above, as a hash
-    /// set.
+    /// Keeps the visited set as a bitmap if the registers have at most `bits` bits, else as a hash
+    /// set. The default is 32 (512 MiB, of which only pages in use become resident), the greatest
+    /// value 36.
     pub fn bitmap_bits(mut self, bits: usize) -> Self {
         self.bitmap_bits = bits;
         self
     }
 
-    /// Calls `report` now and then.
+    /// Calls `report` from time to time.
     pub fn progress(mut self, report: impl FnMut(&Progress) + 'a) -> Self {
         self.progress = Some(Box::new(report));
         self
     }
 
-    /// Searches: a tick of the circuit is made gates, which many transitions go through side by side.
+    /// Searches by gates: a tick of the circuit becomes gates that evaluate many transitions at
+    /// once.
     ///
     /// # Errors
-    /// The registers have more than 64 bits or the inputs more than 20; the circuit is no netlist.
+    /// Returns an error if the registers have more than 64 bits or the inputs more than 20, or the
+    /// circuit cannot be elaborated.
     pub fn run(self) -> Result<Outcome<C>, CheckError> {
         self.search(false)
     }
 
-    /// Searches transition by transition, as a simulation runs; the outcome is the same.
+    /// Searches transition by transition in simulation; the outcome is the same.
     ///
     /// # Errors
-    /// The registers have more than 64 bits or the inputs more than 20; the circuit is no netlist.
+    /// Returns an error if the registers have more than 64 bits or the inputs more than 20, or the
+    /// circuit cannot be elaborated.
     pub fn run_simulated(self) -> Result<Outcome<C>, CheckError> {
         self.search(true)
     }
@@ -213,7 +215,7 @@ impl<'a, C: Circuit> Reach<'a, C> {
         TooWide::check_bits("the inputs", wide, INPUT_BITS)?;
         let bits = register_widths(self.circuit).iter().sum();
         TooWide::check_bits("the registers", bits, STATE_BITS)?;
-        // Loops where iterators would read better: this is made anew for every circuit.
+        // Loops instead of iterators: this code is compiled for every circuit.
         let (mut inputs, mut ports) = (Vec::new(), Vec::new());
         for word in 0..1u64 << wide {
             let i = hdl::inputs(self.circuit, bits_of(word));
@@ -260,22 +262,22 @@ impl<'a, C: Circuit> Reach<'a, C> {
     }
 }
 
-/// Every input as one word.
+/// Returns every input as one word.
 fn all_joined(ports: &[Vec<u64>], widths: &[usize]) -> Vec<u64> {
     ports.iter().map(|words| joined(words, widths)).collect()
 }
 
-/// The registers of a state, if they are kept.
+/// State with its registers, if they were computed.
 type Kept<C> = Option<(u64, Registers<C>)>;
 
-/// The circuit's own records of what the search has as numbers.
+/// Conversion of the search's numbers into the circuit's own records.
 struct Of<'r, 'a, C: Circuit> {
     reach: &'r Reach<'a, C>,
     known: Known<C>,
     inputs: Vec<C::In<Value>>,
-    /// The state that was asked about last.
+    /// State asked about last, with its registers.
     last: RefCell<Kept<C>>,
-    /// Records of states that were looked at of late: many transitions lead to the same one.
+    /// Records of recent states: many transitions lead to the same one.
     records: RefCell<Vec<Kept<C>>>,
 }
 

@@ -1,4 +1,4 @@
-//! Whole records for the ports in of circuits that take them.
+//! Whole records for the input ports of circuits that take them.
 
 use super::Random;
 use super::stimulus::magnitude;
@@ -6,61 +6,62 @@ use crate::engine::Engine;
 use crate::hdl::{Declarations, Role};
 use std::collections::BTreeMap;
 
-/// Words of a record of a path.
+/// Number of words in a record of a path.
 const RECORD_WORDS: u64 = crate::path::record::WORDS as u64;
-/// Most records of an episode, and most segments of a path.
+/// Greatest number of records in an episode, and of segments in a path.
 const MOST: u64 = 4;
-/// Records of an episode that fills the memory.
+/// Number of records in an episode that fills the memory.
 const MANY: u64 = 20;
-/// Shortest episode with records in ticks, and binary digits of what comes on top.
+/// Shortest episode with records in ticks, and greatest number of binary digits of the ticks
+/// added.
 const PLAYED: (u64, u64) = (1 << 11, 10);
-/// Binary digits of an episode without records.
+/// Greatest number of binary digits of an episode without records, in ticks.
 const FREE: u64 = 9;
-/// Ticks after the last word of a record in which the path starts.
+/// Ticks from the last word of a record to the start of the path.
 const START: u64 = 2;
-/// Ticks from one line, or from one start of the steps, to the next.
+/// Ticks from one line, or one start of the steps, to the next.
 const AGAIN: u64 = 512;
-/// Steps that are written before they are started.
+/// Number of steps that are written before they are started.
 const STEPS: u64 = 4;
 
-/// Controls that end, hold or replace what is under way.
+/// Controls that end, hold or replace the current motion.
 const LOW: [&str; 7] = [
     "halt", "hold", "restart", "clear", "given", "passing", "common",
 ];
 
-/// Records, targets and steps, written whole and started, in place of the random words of a
-/// [`Stimulus`](super::Stimulus).
+/// Records, targets and steps that are written whole and started, in place of the random words of
+/// a [`Stimulus`](super::Stimulus).
 ///
 /// Independent random ports rarely write the 32 words of a record and then start it, so most of a
-/// path generator stays still. Here two kinds of episodes take turns. In the long one, ports that
+/// path generator never moves. Here two kinds of episodes alternate. In a long one, ports that
 /// belong together are driven together: the words of a few records and of the path, and the start;
 /// targets with a speed; steps, and an encoder that turns. Controls that stop a motion are mostly
-/// low, and periods are short. Every fourth of these gives more than there is room for. In the short
-/// episode every port is random. Ports are recognized by their names in a scope.
+/// low, and periods are short. Every fourth long episode gives more records than fit. In a short
+/// episode every port is random. Ports are recognised by their names in a scope.
 #[derive(Debug)]
 pub(super) struct Records {
     random: Random,
     scopes: Vec<Scope>,
     encoders: Vec<Encoder>,
     playing: bool,
-    /// Ticks of the episode to come.
+    /// Ticks left in the episode.
     left: u64,
-    /// Ticks of the episode that are over.
+    /// Ticks of the episode so far.
     age: u64,
-    /// Records of this episode.
+    /// Number of records in this episode.
     count: u64,
-    /// Episodes with records that began.
+    /// Number of episodes with records so far.
     episodes: u64,
-    /// More is given than there is room for, and the path has no end.
+    /// True if more records are given than fit, and the path has no end.
     flood: bool,
-    /// Kind and modulus of the record that is written.
+    /// Kind and modulus of the current record.
     kind: u64,
     modulus: u64,
-    /// Words that stand through the episode, by their ports.
+    /// Ports with a constant word in this episode, and their words.
     held: Vec<(usize, u64)>,
 }
 
-/// Ports in that share a scope, by their names.
+/// Input ports of one scope, by name.
 #[derive(Debug, Default)]
 struct Scope {
     ports: BTreeMap<String, Port>,
@@ -68,23 +69,24 @@ struct Scope {
 
 #[derive(Debug, Clone, Copy)]
 struct Port {
-    /// Number among the ports in.
+    /// Index among the input ports.
     place: usize,
     width: u64,
 }
 
-/// Two channels in quadrature.
+/// Encoder with two channels in quadrature.
 #[derive(Debug)]
 struct Encoder {
     channels: [usize; 2],
     position: u64,
     back: bool,
-    /// Ticks in this direction to come.
+    /// Ticks left in this direction.
     left: u64,
 }
 
 impl Records {
-    /// Returns the records of a circuit with parts and so many ports in, or `None` where it takes none.
+    /// Returns the records of a circuit with parts and `inputs` input ports, or `None` if it takes
+    /// none.
     pub(super) fn of(declarations: &Declarations, inputs: usize, seed: u64) -> Option<Self> {
         let (own, others) = declarations.leaves.split_at(inputs);
         let has_parts = others.iter().any(|leaf| leaf.role == Role::Input);
@@ -117,7 +119,7 @@ impl Records {
         })
     }
 
-    /// Begins anew after a reset.
+    /// Restarts after a reset.
     pub(super) fn restart(&mut self) {
         self.playing = false;
         self.left = 0;
@@ -143,7 +145,7 @@ impl Records {
         self.age += 1;
     }
 
-    /// Begins the other kind of episode.
+    /// Begins an episode of the other kind.
     fn begin(&mut self) {
         self.playing = !self.playing;
         self.age = 0;
@@ -168,7 +170,7 @@ impl Records {
         }
     }
 
-    /// The words of a scope that belong together.
+    /// Writes the words of a scope that belong together.
     fn write(&mut self, scope: usize, engine: &mut Engine) {
         let scope = &self.scopes[scope];
         let (age, random) = (self.age, &mut self.random);
@@ -179,7 +181,7 @@ impl Records {
         };
         let width = |name: &str| scope.ports.get(name).map_or(1, |port| port.width);
         if scope.has(&["write_word", "push", "start"]) {
-            // What is left of the episode before is ended first.
+            // A motion left from the episode before is ended first.
             set("halt", u64::from(age == 0));
             let at = age
                 .checked_sub(1)
@@ -219,13 +221,13 @@ impl Records {
             let again = if self.flood { START + 1 } else { AGAIN };
             set("push", u64::from(age % again == START));
             for (target, end) in [("target_x", 0), ("target_y", 1)] {
-                // As far as can be: from the wrong side of 0 that is refused.
+                // As far as possible: from the wrong side of 0 that is refused.
                 let far = (1 << (width(target) - 1)) - end;
                 let near = signed(random, 9);
                 let is_far = self.flood && age == START;
                 set(target, if is_far { far } else { near });
             }
-            // Counts a scan, with as many bits of fraction as a time has.
+            // Counts per scan, with as many fraction bits as a time has.
             let speed = (1 + magnitude(random, 7)) << width("acceleration_time");
             set("speed", speed);
             set("halt", u64::from(age == 0));
@@ -248,7 +250,7 @@ impl Scope {
         names.iter().all(|name| self.ports.contains_key(*name))
     }
 
-    /// Channels `a` and `b`, or `a_x` and `b_x`.
+    /// Returns the encoders: channels `a` and `b`, or `a_x` and `b_x`.
     fn encoders(&self) -> impl Iterator<Item = Encoder> {
         let of = |name: &str| self.ports.get(name).filter(|port| port.width == 1);
         let pairs = ["", "_x", "_y", "_z"].map(|axis| {
@@ -274,7 +276,7 @@ impl Port {
 }
 
 impl Encoder {
-    /// Turns by a count in one of four ticks.
+    /// Turns by one count in a quarter of the ticks, at random.
     fn tick(&mut self, random: &mut Random, engine: &mut Engine) {
         if self.left == 0 {
             self.left = 64 + magnitude(random, 9);
@@ -292,8 +294,8 @@ impl Encoder {
     }
 }
 
-/// The word that a port has through an episode of so many records; where more is given than there is
-/// room for, sampling times are too short too.
+/// Returns the constant word of a port in an episode of `count` records; with `flood` the sampling
+/// times are too short too.
 fn standing(name: &str, count: u64, flood: bool, random: &mut Random) -> Option<u64> {
     let is_low = LOW.contains(&name) && !random.word().is_multiple_of(8);
     Some(match name {
@@ -311,7 +313,8 @@ fn standing(name: &str, count: u64, flood: bool, random: &mut Random) -> Option<
     })
 }
 
-/// A word of a record of this kind and modulus: [`record`](crate::path::record) has the format.
+/// Returns a word of a record of this kind and modulus; [`record`](crate::path::record) has the
+/// format.
 fn record_word(
     (word, is_last): (u64, bool),
     (kind, modulus): (u64, u64),
@@ -321,7 +324,7 @@ fn record_word(
     match word {
         0 => kind | u64::from(is_last) << 2 | (2 + random.word() % 8) << 3,
         1 => modulus,
-        // Points; behind them a matrix of an arc, or wholes and parts of differences.
+        // Points, then the matrix of an arc, or integer and fractional parts of differences.
         2..8 => signed(random, width.saturating_sub(4).max(1)),
         _ if kind == 2 => random.word(),
         _ if word % 2 == 1 => random.word() % modulus,
@@ -329,7 +332,7 @@ fn record_word(
     }
 }
 
-/// A word of either sign of up to so many digits.
+/// Returns a word of either sign with up to `digits` binary digits.
 fn signed(random: &mut Random, digits: u64) -> u64 {
     let word = magnitude(random, digits);
     if random.word() & 1 == 1 {

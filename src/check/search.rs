@@ -1,27 +1,28 @@
-//! What a search keeps, whatever the circuit.
+//! State of a search that does not depend on the circuit's type.
 
 use super::visited::Visited;
 use super::{Progress, Proof};
 
-/// A report of progress after this many states, and after every depth.
+/// Number of states between reports of progress; each depth is reported too.
 const REPORT_EVERY: usize = 1 << 16;
 
 pub(crate) type Report<'a> = dyn FnMut(&Progress) + 'a;
 
-/// The states found, in the order of their distance from power-on, and how each was reached.
+/// States found, ordered by distance from power-on, with the way each was reached.
 pub(crate) struct Search<'a> {
     visited: Visited,
     states: Vec<u64>,
-    /// For every state the one before it on a shortest way and the input that leads on; both fit,
-    /// since the limit of states is a `u32` and inputs have 20 bits at most.
+    /// For every state its predecessor on a shortest path, and the input that leads to it. Both
+    /// fit: the limit of states is a `u32`, and inputs have at most 20 bits.
     links: Vec<(u32, u32)>,
     limit: usize,
-    /// The most transitions.
+    /// Greatest number of transitions.
     most: u64,
     report: Option<Box<Report<'a>>>,
-    /// The state that is tried.
+    /// Index of the current state.
     at: usize,
-    /// How many edges it is from power-on, and the first state that is farther.
+    /// Distance of the current state from power-on in edges, and index of the first state farther
+    /// away.
     pub(crate) depth: u64,
     deeper_from: usize,
     pub(crate) transitions: u64,
@@ -51,17 +52,17 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The state that was found as the nth.
+    /// Returns the state with index `at`.
     pub(crate) fn nth(&self, at: usize) -> Option<u64> {
         self.states.get(at).copied()
     }
 
-    /// Which one is tried.
+    /// Returns the index of the current state.
     pub(crate) fn at(&self) -> usize {
         self.at
     }
 
-    /// The state to be tried with every input.
+    /// Returns the current state, which is to be tried with every input.
     pub(crate) fn state(&mut self) -> Option<u64> {
         let state = *self.states.get(self.at)?;
         let deeper = self.at == self.deeper_from;
@@ -78,13 +79,13 @@ impl<'a> Search<'a> {
         Some(state)
     }
 
-    /// It was tried; there were this many transitions before.
+    /// Finishes the current state; `before` is the number of transitions before it.
     pub(crate) fn tried(&mut self, before: u64) {
         self.dead_ends += u64::from(self.transitions == before);
         self.at += 1;
     }
 
-    /// A state after the one that is tried; whether there is room for it.
+    /// Adds a successor of the current state; returns false if there is no room for it.
     #[inline]
     pub(crate) fn found(&mut self, state: u64, input: usize) -> bool {
         if self.transitions > self.most {
@@ -100,7 +101,7 @@ impl<'a> Search<'a> {
         true
     }
 
-    /// The inputs from power-on to the state that is tried and one more.
+    /// Returns the inputs from power-on to the current state, followed by `last`.
     pub(crate) fn way(&self, last: usize) -> Vec<usize> {
         let mut way = vec![last];
         let mut at = self.at;

@@ -1,4 +1,4 @@
-//! A search through the states of a circuit, whatever its type.
+//! Search through the states of a circuit, independent of its type.
 
 use super::Fault;
 use super::reach::{Progress, Proof};
@@ -8,12 +8,11 @@ use crate::engine::sliced::{LANES, Tick, Ticks};
 use crate::engine::{Engine, Watch};
 use crate::hdl::{Model, Role};
 
-/// What a search asks about a circuit: all that depends on its type.
+/// Questions of a search that depend on the circuit's type.
 pub(super) trait Judge {
-    /// Whether an input, by its number, is assumed possible in a state.
+    /// True if the assumptions allow an input, given by index, in a state.
     fn possible(&self, state: u64, input: usize) -> bool;
-    /// Whether a settled tick, of this state and input, is as it has to be, with the registers after
-    /// its edge.
+    /// Checks a settled tick of this state and input, with the registers after its edge.
     fn check(
         &self,
         depth: u64,
@@ -23,7 +22,7 @@ pub(super) trait Judge {
     ) -> Result<(), (String, Fault)>;
 }
 
-/// The registers after an edge, if they are looked at.
+/// Registers after an edge, if an invariant reads them.
 #[derive(Clone, Copy)]
 pub(super) enum Next<'a> {
     Nobody,
@@ -31,17 +30,17 @@ pub(super) enum Next<'a> {
     Engine(&'a Engine),
 }
 
-/// A search, whatever the circuit's type.
+/// Search, independent of the circuit's type.
 pub(super) struct Searching<'j> {
     /// All inputs that are applied, as one word each, and port by port.
     pub(super) words: Vec<u64>,
     pub(super) ports: Vec<Vec<u64>>,
     pub(super) judge: &'j dyn Judge,
-    /// Whether some inputs are not possible in some states.
+    /// True if some inputs are not allowed in some states.
     pub(super) assumes: bool,
-    /// Whether the registers after an edge are looked at.
+    /// True if an invariant reads the registers after an edge.
     pub(super) looks_ahead: bool,
-    /// The numbers of the circuit's own properties, if there are no others.
+    /// Indices of the circuit's own properties, if there are no others.
     pub(super) own: Option<Vec<usize>>,
 }
 
@@ -73,7 +72,7 @@ impl Searching<'_> {
         }
     }
 
-    /// Transition by transition.
+    /// Searches transition by transition.
     fn one_by_one(&self, mut search: Search<'_>, one: &mut One<'_>) -> Ended {
         let mut after = one.engine.clone();
         while let Some(state) = search.state() {
@@ -86,7 +85,7 @@ impl Searching<'_> {
                 search.transitions += 1;
                 one.engine.drive_all(words);
                 one.engine.settle();
-                // The edge is another engine's, so that the registers stay for the next inputs.
+                // Another engine makes the edge, so that the registers stay for the next inputs.
                 after.restore(one.engine.slab());
                 after.edge();
                 let next = match self.looks_ahead {
@@ -106,10 +105,10 @@ impl Searching<'_> {
         Ended::Proof(search.proof())
     }
 
-    /// Many transitions at once, as gates: in the same order, with the same outcome.
+    /// Evaluates many transitions at once as gates, in the same order and with the same outcome.
     fn side_by_side(&self, mut search: Search<'_>, tick: &Tick, one: &mut One<'_>) -> Ended {
         let mut ticks = Ticks::new(tick);
-        // The next case: a state by its number, and an input.
+        // Next case: index of a state, and of an input.
         let (mut at, mut index) = (0, 0);
         let mut cases: Vec<(usize, usize)> = Vec::with_capacity(LANES);
         let (mut before, mut given) = (Vec::with_capacity(LANES), Vec::with_capacity(LANES));
@@ -177,25 +176,25 @@ impl Searching<'_> {
     }
 }
 
-/// How a search ended, inputs by their numbers.
+/// Result of a search, with inputs by index.
 pub(super) enum Ended {
     Proof(Proof),
     Limit(Progress),
     Fault(Vec<usize>, String, Fault),
 }
 
-/// What looks at one transition.
+/// Evaluation of single transitions.
 struct One<'j> {
     name: &'static str,
     judge: &'j dyn Judge,
     engine: Engine,
     states: Packing,
-    /// The state that was looked at last.
+    /// State of the engine.
     state: Option<u64>,
 }
 
 impl One<'_> {
-    /// Settles a tick and looks at it.
+    /// Settles a tick and checks it.
     fn at(
         &mut self,
         depth: u64,
@@ -212,9 +211,9 @@ impl One<'_> {
         self.judge.check(depth, &self.engine, (state, input), next)
     }
 
-    /// What is wrong with a transition of which one of the circuit's own properties does not hold.
+    /// Returns the fault of a transition that violates one of the circuit's own properties.
     fn fault(&mut self, depth: u64, of: (u64, usize), ports: &[u64]) -> (String, Fault) {
-        // Where the engine disagrees with the gates: a fault of these, and no reason to be silent.
+        // The engine disagrees with the gates: a fault of the gates, which must not be hidden.
         let disagreed = |name: &str| {
             let message = "the gates of a tick say so, the engine does not".to_owned();
             let signals = Vec::new();
@@ -225,7 +224,7 @@ impl One<'_> {
     }
 }
 
-/// How the registers of a circuit are packed into one word, the first in the lowest bits.
+/// Packing of a circuit's registers into one word, the first in the lowest bits.
 struct Packing(Vec<(usize, usize)>);
 
 impl Packing {

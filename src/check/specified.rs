@@ -1,18 +1,18 @@
 use super::Invariants;
 use crate::hdl::{Circuit, Registers, Value};
 
-/// A circuit that says what must hold of it, whatever comes in.
+/// Circuit with its specification: properties that must hold for any input.
 pub trait Specified: Circuit {
-    /// What must hold on every transition.
+    /// Returns the properties that must hold on every transition.
     fn invariants(&self) -> Invariants<'_, Self>;
 
-    /// Whether a proof applies this input: unless overridden, all bits are free.
+    /// True if a proof applies this input; by default every input.
     fn applies(&self, _: &Self::In<Value>) -> bool {
         true
     }
 
-    /// Whether a proof applies this input in this state: unless overridden, in every state. What
-    /// the surroundings are relied on for stands in the circuit's comment.
+    /// True if a proof applies this input in this state; by default in every state. The comment of
+    /// the circuit states what it relies on.
     fn assumes(&self, _: &Registers<Self>, _: &Self::In<Value>) -> bool {
         true
     }

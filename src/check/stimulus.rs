@@ -2,24 +2,25 @@ use super::Random;
 use crate::engine::Engine;
 use crate::hdl::{Circuit, Value, pack::inputs};
 
-/// A stretch in which a port keeps to one way of changing has up to this many binary digits of
-/// ticks. Longer ones bring single counters further, and fewer combinations of ports.
+/// Greatest number of binary digits of the ticks in a stretch, in which a port keeps one way of
+/// changing. Longer stretches move single counters further, but give fewer combinations of ports.
 const STRETCH: u64 = 10;
-/// As many binary digits at most has the gap before the first tick of reset, one more each gap
-/// after that, up to the second number.
+/// Greatest number of binary digits of the gap before the first tick of reset. Each gap has one
+/// more, up to `LONG_GAP`.
 const SHORT_GAP: u64 = 6;
 const LONG_GAP: u64 = 16;
-/// At the slowest a port changes about once in 2^`PACE` ticks.
+/// Slowest pace: a port changes about once in 2^`PACE` ticks.
 const PACE: u64 = 11;
 
-/// Random inputs that exercise circuits of any width, the same on every machine for the same seed.
+/// Random inputs that exercise circuits of any width; they depend on the seed only, not on the
+/// machine.
 ///
-/// Bits that are evenly random every tick are a poor stimulus: a wide comparison is never met, a
-/// strobe is never rare, and nothing ever holds. So every port goes through stretches of random
-/// length, each with a *kind* of values (small, of any magnitude, powers of two, close to the
-/// greatest, evenly random) and a *pace* at which they change, from every tick to never. A single
-/// bit has stretches of rare pulses, frequent ones, rare gaps, and of holding either level. Lengths
-/// and paces are of every order of magnitude.
+/// Bits that are uniformly random in every tick are a poor stimulus: a wide comparison never
+/// matches, a strobe is never rare, and nothing ever holds. So every port goes through stretches
+/// of random length, each with a *kind* of values (small, of any magnitude, powers of two, close
+/// to the greatest, uniformly random) and a *pace* at which they change, from every tick to never.
+/// A single bit has stretches of rare pulses, frequent pulses, rare gaps, and constant levels.
+/// Lengths and paces are of every order of magnitude.
 ///
 /// ```
 /// use motion_rtl::check::Stimulus;
@@ -35,16 +36,16 @@ const PACE: u64 = 11;
 pub struct Stimulus {
     random: Random,
     courses: Vec<Course>,
-    /// What the ticks of reset are drawn from, so that asking for them changes no input.
+    /// Source of the reset ticks; it is separate, so that asking for them changes no input.
     resets: Random,
-    /// Ticks before the next one of reset.
+    /// Ticks left before the next reset.
     gap: u64,
-    /// The longest gap after that one, as a power of two.
+    /// Greatest number of binary digits of the gap after that.
     longest: u64,
 }
 
 impl Stimulus {
-    /// The stimulus that `seed` names.
+    /// Creates the stimulus of a seed.
     pub fn new(seed: u64) -> Self {
         let mut resets = Random::new(!seed);
         Stimulus {
@@ -56,13 +57,13 @@ impl Stimulus {
         }
     }
 
-    /// The inputs of the tick that comes next. Give them all to one circuit.
+    /// Returns the inputs of the next tick. Use one stimulus for one circuit.
     pub fn inputs<C: Circuit>(&mut self, circuit: &C) -> C::In<Value> {
         let mut ports = self.ports();
         inputs(circuit, |shape| ports.port(shape.width))
     }
 
-    /// Sets the ports in of an engine for the tick that comes next.
+    /// Sets the input ports of an engine for the next tick.
     pub fn apply(&mut self, engine: &mut Engine) {
         let mut ports = self.ports();
         for port in 0..engine.flat().inputs.len() {
@@ -71,7 +72,7 @@ impl Stimulus {
         }
     }
 
-    /// The inputs of the tick that comes next, one after the other.
+    /// Returns the inputs of the next tick, port by port.
     pub(super) fn ports(&mut self) -> Ports<'_> {
         Ports {
             stimulus: self,
@@ -79,8 +80,8 @@ impl Stimulus {
         }
     }
 
-    /// Whether the tick that comes next is one of reset: some are among the first hundreds, later
-    /// ones come after gaps of every order of magnitude. Ask once a tick, or never.
+    /// Returns true if the next tick is a reset. Some are among the first hundreds; later ones
+    /// come after gaps of every order of magnitude. Call it once per tick, or never.
     pub fn reset(&mut self) -> bool {
         match self.gap.checked_sub(1) {
             Some(left) => {
@@ -96,14 +97,14 @@ impl Stimulus {
     }
 }
 
-/// The walk that gives every port its value.
+/// Walk that gives each port its value.
 pub(super) struct Ports<'a> {
     stimulus: &'a mut Stimulus,
     next: usize,
 }
 
 impl Ports<'_> {
-    /// The next port, of so many bits.
+    /// Returns the value of the next port, of `width` bits.
     pub(super) fn port(&mut self, width: usize) -> u64 {
         let Stimulus {
             random, courses, ..
@@ -117,32 +118,32 @@ impl Ports<'_> {
     }
 }
 
-/// What one port does.
+/// Current behaviour of one port.
 #[derive(Debug, Clone, Copy, Default)]
 struct Course {
-    /// Ticks of this stretch to come.
+    /// Ticks left in this stretch.
     left: u64,
     kind: Kind,
-    /// It changes about once in 2^`pace` ticks.
+    /// Logarithm of the average number of ticks between changes.
     pace: u64,
     value: u64,
 }
 
-/// What values a stretch has.
+/// Kind of values in a stretch.
 #[derive(Debug, Clone, Copy, Default)]
 enum Kind {
     /// Below 8.
     #[default]
     Small,
-    /// Of every order of magnitude.
+    /// Any order of magnitude.
     Magnitude,
     /// One bit high.
     Power,
     /// At most 7 below the greatest, read as unsigned or as two's complement.
     Top,
-    /// Evenly random.
+    /// Uniformly random.
     Even,
-    /// This level, and the other one in single ticks: a bit's pulses or gaps.
+    /// This level, and the other one in single ticks: pulses or gaps of a bit.
     Pulses(u64),
 }
 
@@ -161,7 +162,7 @@ impl Course {
         self.value
     }
 
-    /// A new stretch. The value is the old one until it changes.
+    /// Begins a new stretch. The value stays until it changes.
     fn begin(&mut self, random: &mut Random, width: usize) {
         self.left = magnitude(random, STRETCH);
         self.pace = random.word() % (PACE + 1);
@@ -184,7 +185,7 @@ impl Kind {
         let word = random.word();
         let value = match self {
             Kind::Small => word >> 61,
-            // Twice, so that small ones are more frequent: a large period stops a whole circuit.
+            // Twice, so that small values are more frequent: a large period stops a whole circuit.
             Kind::Magnitude => {
                 let most = 1 + random.word() % width;
                 magnitude(random, most)
@@ -197,7 +198,7 @@ impl Kind {
     }
 }
 
-/// A number of up to `digits` binary digits, every count of digits as likely.
+/// Returns a number of up to `digits` binary digits; every number of digits is equally likely.
 pub(super) fn magnitude(random: &mut Random, digits: u64) -> u64 {
     let digits = 1 + random.word() % digits;
     random.word() >> (64 - digits)

@@ -11,36 +11,36 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The cases that a thread takes at a time; a multiple of those that run side by side.
+/// Number of cases that a thread takes at once; a multiple of the number of lanes.
 const CHUNK: u64 = 1 << 14;
 
-/// What a circuit makes of a fixed number of ticks from power-on, for every case of a finite space:
-/// checked case by case by [`sweep()`].
+/// Function of a circuit over a fixed number of ticks from power-on, checked for every case of a
+/// finite space by [`sweep()`].
 ///
-/// A law is a circuit around the one it is about: its ports in are a case, and stay as they are; its
-/// own nets are what is seen, in the last tick. A register that counts the ticks, and others that
-/// remember what was seen before, cost nothing: the law is unrolled. What is expected is plain
+/// A law is a circuit around the one under test. Its input ports are a case and stay constant; its
+/// own nets in the last tick are the result. A register that counts the ticks, and others that
+/// remember earlier values, cost nothing: the law is unrolled. The expected result is plain
 /// arithmetic on numbers, by other means than the circuit's.
 pub trait Law: Circuit {
-    /// What holds.
+    /// Returns the statement of the law.
     fn law(&self) -> &str;
-    /// How many ticks a case takes, at least one.
+    /// Returns the number of ticks of a case, at least 1.
     fn ticks(&self) -> u64;
-    /// What is to be seen in the end; nothing for a case that is not meant.
+    /// Returns the expected result; `None` excludes the case.
     fn expected(&self, case: &Self::In<Value>) -> Option<Self::Net<Value>>;
 }
 
-/// How a sweep ended.
+/// Result of a sweep.
 #[must_use = "a counterexample is seen by looking at it"]
 pub enum Swept<C: Circuit> {
-    /// Every case is as expected: how many there are, without those that are not meant.
+    /// Number of cases checked, all as expected; excluded cases do not count.
     Held(u64),
-    /// The case with the lowest index that is not.
+    /// Case with the lowest index that is not as expected.
     Counterexample(Box<Counterexample<C>>),
 }
 
 impl<C: Circuit> Swept<C> {
-    /// The cases that were checked, if all are as expected.
+    /// Returns the number of cases checked, if all are as expected.
     pub fn held(&self) -> Option<u64> {
         match self {
             Swept::Held(cases) => Some(*cases),
@@ -48,7 +48,7 @@ impl<C: Circuit> Swept<C> {
         }
     }
 
-    /// The counterexample, if there is one.
+    /// Returns the counterexample, if there is one.
     pub fn counterexample(self) -> Option<Counterexample<C>> {
         match self {
             Swept::Held(_) => None,
@@ -66,7 +66,7 @@ impl<C: Circuit> fmt::Debug for Swept<C> {
     }
 }
 
-/// A sweep to be run; see [`sweep()`].
+/// Prepared sweep; see [`sweep()`].
 #[must_use = "nothing is checked before it runs"]
 pub struct Sweep<'a, W: Law> {
     law: &'a W,
@@ -75,8 +75,8 @@ pub struct Sweep<'a, W: Law> {
     progress: Option<&'a (dyn Fn(u64) + Sync)>,
 }
 
-/// Checks a law on every case, many of them side by side, on as many threads as rayon has. The
-/// counterexample is the case with the lowest index, however many threads there are.
+/// Prepares a check of a law on every case, many at once, on all threads of rayon. The
+/// counterexample is the case with the lowest index, whatever the number of threads.
 #[must_use = "nothing is checked before it runs"]
 pub fn sweep<W: Law>(law: &W) -> Sweep<'_, W> {
     Sweep {
@@ -87,10 +87,10 @@ pub fn sweep<W: Law>(law: &W) -> Sweep<'_, W> {
     }
 }
 
-/// The number of cases of a law.
+/// Returns the number of cases of a law.
 ///
 /// # Errors
-/// A case has more than 63 bits, or what is seen more than 64.
+/// Returns an error if a case has more than 63 bits, or its result more than 64.
 pub fn cases<W: Law>(law: &W) -> Result<u64, CheckError> {
     let seen = widths::<W, W::Net<Shapes>>(law);
     TooWide::check_bits("the signals seen", seen.iter().sum(), 64)?;
@@ -100,13 +100,13 @@ pub fn cases<W: Law>(law: &W) -> Result<u64, CheckError> {
 }
 
 impl<'a, W: Law> Sweep<'a, W> {
-    /// Checks only the cases with these indices, as far as there are such.
+    /// Checks only the cases with these indices, as far as they exist.
     pub fn range(mut self, range: Range<u64>) -> Self {
         self.range = Some(range);
         self
     }
 
-    /// Checks this netlist of the law: one that was elaborated before, or with a fault in it.
+    /// Checks this netlist of the law: one that was elaborated before, or that has a fault.
     pub fn model(mut self, model: Model) -> Self {
         self.model = Some(model);
         self
@@ -119,19 +119,19 @@ impl<'a, W: Law> Sweep<'a, W> {
         }
     }
 
-    /// Calls `report` now and then with the number of cases that were looked at since.
+    /// Calls `report` from time to time with the number of cases checked since the last call.
     pub fn progress(mut self, report: &'a (dyn Fn(u64) + Sync)) -> Self {
         self.progress = Some(report);
         self
     }
 
-    /// Runs it: the law is unrolled once into gates from the bits of a case to those of what is seen,
-    /// which many cases run through side by side. A circuit with memories that are written, and one of
-    /// which there would be too many gates, is run case by case as by
+    /// Runs the sweep by gates: the law is unrolled once into gates, which evaluate many cases at
+    /// once. A circuit with written memories, or with too many gates, runs case by case as in
     /// [`run_simulated`](Self::run_simulated).
     ///
     /// # Errors
-    /// A case has more than 63 bits, or what is seen more than 64, or the circuit cannot be run.
+    /// Returns an error if a case has more than 63 bits, its result more than 64, or the circuit
+    /// cannot be run.
     pub fn run(self) -> Result<Swept<W>, CheckError> {
         let model = self.netlist()?;
         cases(self.law)?;
@@ -139,7 +139,7 @@ impl<'a, W: Law> Sweep<'a, W> {
         let unrolled = model
             .flat()
             .unrolled(self.law.ticks(), cases.seen.len())
-            // What does not depend on the case is no more than constants from here on.
+            // Everything that does not depend on the case becomes a constant.
             .map(|flat| passes::all(&flat, &vec![true; flat.leaves.len()]));
         match unrolled.and_then(|flat| Sliced::of(&flat).ok()) {
             Some(sliced) => self.checked(&model, |chunk| cases.side_by_side(&sliced, chunk)),
@@ -147,10 +147,11 @@ impl<'a, W: Law> Sweep<'a, W> {
         }
     }
 
-    /// Runs it case by case, as a simulation runs.
+    /// Runs the sweep case by case in simulation.
     ///
     /// # Errors
-    /// A case has more than 63 bits, or what is seen more than 64, or the circuit cannot be run.
+    /// Returns an error if a case has more than 63 bits, its result more than 64, or the circuit
+    /// cannot be run.
     pub fn run_simulated(self) -> Result<Swept<W>, CheckError> {
         let model = self.netlist()?;
         cases(self.law)?;
@@ -165,8 +166,8 @@ impl<'a, W: Law> Sweep<'a, W> {
         })
     }
 
-    /// Checks chunk by chunk on all threads; `check` says how many cases of one are meant, and which
-    /// is the first that is wrong.
+    /// Checks chunk by chunk on all threads; `check` returns the number of cases included and the
+    /// first that is wrong.
     fn checked(
         self,
         model: &Model,
@@ -184,7 +185,7 @@ impl<'a, W: Law> Sweep<'a, W> {
         })
     }
 
-    /// The lowest index that `check` finds wrong, chunk by chunk on all threads.
+    /// Returns the lowest index that `check` finds wrong, chunk by chunk on all threads.
     fn first(
         &self,
         check: impl Fn(Range<u64>) -> Option<u64> + Sync,
@@ -218,10 +219,10 @@ impl<W: Law> fmt::Debug for Sweep<'_, W> {
     }
 }
 
-/// The cases of a law.
+/// Cases of a law.
 struct Cases<'a, W: Law> {
     law: &'a W,
-    /// The widths of what is seen.
+    /// Widths of the result's words.
     seen: Vec<usize>,
 }
 
@@ -233,14 +234,15 @@ impl<'a, W: Law> Cases<'a, W> {
         }
     }
 
-    /// What is expected of a case, as one word.
+    /// Returns the expected result of a case as one word.
     fn expected(&self, index: u64) -> Option<u64> {
         let case = hdl::inputs(self.law, bits_of(index));
         let expected = self.law.expected(&case)?;
         Some(joined(&words(&expected, &self.seen), &self.seen))
     }
 
-    /// How many cases are meant, and the first that is wrong.
+    /// Evaluates a chunk of cases at once; returns the number of cases included, and the first
+    /// that is wrong.
     fn side_by_side(&self, sliced: &Sliced, chunk: Range<u64>) -> (u64, Option<u64>) {
         let mut run = Run::new(sliced);
         let mut meant = 0;
@@ -269,7 +271,7 @@ impl<'a, W: Law> Cases<'a, W> {
         (meant, None)
     }
 
-    /// The same, as a simulation runs.
+    /// Evaluates a chunk case by case in simulation.
     fn one_by_one(&self, engine: &mut Engine, chunk: Range<u64>) -> (u64, Option<u64>) {
         let power_on = engine.slab().to_vec();
         let mut meant = 0;
@@ -285,7 +287,7 @@ impl<'a, W: Law> Cases<'a, W> {
         (meant, None)
     }
 
-    /// What is seen of a case in the end, from power-on.
+    /// Returns the result of a case, simulated from power-on.
     fn run(&self, engine: &mut Engine, index: u64) -> Vec<u64> {
         let ports = input_widths(self.law);
         let case: W::In<Value> = hdl::inputs(self.law, bits_of(index));
@@ -302,7 +304,7 @@ impl<'a, W: Law> Cases<'a, W> {
     }
 }
 
-/// A case that is wrong, played in simulation.
+/// Replays a wrong case in simulation.
 fn replayed<W: Law>(law: &W, model: &Model, index: u64) -> Counterexample<W> {
     let cases = Cases::of(law);
     let case: W::In<Value> = hdl::inputs(law, bits_of(index));
@@ -321,7 +323,7 @@ fn replayed<W: Law>(law: &W, model: &Model, index: u64) -> Counterexample<W> {
         }
     }
     if found.is_empty() {
-        // The gates and the simulation disagree: a fault of the former, and no reason to be silent.
+        // The gates and the simulation disagree: a fault of the gates, which must not be hidden.
         found.push("the unrolled circuit says so, simulation does not".to_owned());
     }
     let ports = words(&case, &input_widths(law));
@@ -339,7 +341,7 @@ fn replayed<W: Law>(law: &W, model: &Model, index: u64) -> Counterexample<W> {
     Counterexample::new(model, inputs, law.law().to_owned(), fault)
 }
 
-/// A port by its name in the circuit's scope.
+/// Returns the name of a port below the circuit's scope.
 fn name(leaf: &Declaration) -> String {
     let scopes = leaf.scopes.iter().skip(1).cloned();
     let path: Vec<_> = scopes.chain([leaf.name.clone()]).collect();

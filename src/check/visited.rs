@@ -3,22 +3,23 @@ use bitvec::prelude::*;
 use std::collections::HashSet;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// The widest state for which a bitmap can be asked for: 8 GiB of it.
+/// Greatest width of a state for a bitmap, in bits: 8 GiB.
 const WIDEST_BITMAP: usize = 36;
 
-/// The packed states that were seen.
+/// Packed states that were visited.
 pub(crate) enum Visited {
-    /// A bit for every state there could be.
+    /// One bit for every possible state.
     Bitmap(BitVec<u64, Lsb0>),
-    /// The states that there are.
+    /// Set of visited states.
     Set(HashSet<u64, BuildHasherDefault<WordHasher>>),
 }
 
 impl Visited {
-    /// An empty set for states of `bits` bits, as a bitmap where they have at most `bitmap_bits`.
+    /// Creates an empty set for states of `bits` bits; a bitmap if they have at most
+    /// `bitmap_bits`.
     pub(crate) fn new(bits: usize, bitmap_bits: usize) -> Self {
         if bits <= bitmap_bits.min(WIDEST_BITMAP) {
-            // From zeroed words and not by `repeat`: the pages that no state falls on then never
+            // Made from zeroed words and not by `repeat`: pages without a visited state then never
             // become resident.
             Visited::Bitmap(BitVec::from_vec(vec![0; (1usize << bits).div_ceil(64)]))
         } else {
@@ -26,7 +27,7 @@ impl Visited {
         }
     }
 
-    /// Adds a state; whether it is new.
+    /// Adds a state; returns true if it is new.
     #[inline]
     pub(crate) fn insert(&mut self, state: u64) -> bool {
         match self {
@@ -36,7 +37,7 @@ impl Visited {
     }
 }
 
-/// Hashes one `u64`; the keyed default hash would cost more than the circuit.
+/// Hasher of one `u64`; the keyed default hash would cost more than the circuit.
 #[derive(Default)]
 pub(crate) struct WordHasher(u64);
 

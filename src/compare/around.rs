@@ -1,4 +1,4 @@
-//! What is shown around the first mismatch.
+//! Signals shown around the first mismatch.
 
 use super::pair::Pair;
 use super::report::{Cell, Mismatch, Row};
@@ -7,14 +7,14 @@ use super::times::times;
 use super::wave::Variable;
 use crate::input::Fault;
 
-/// Rows of the table.
+/// Number of rows in the table.
 const ROWS: usize = 12;
-/// Ticks behind the mismatch.
+/// Number of ticks after the mismatch.
 const BEHIND: i128 = 2;
 
 impl Runs {
-    /// The first of the signals that differ, given by first tick and place among the pairs, in
-    /// order.
+    /// Returns the first mismatch; `differing` lists the signals by first tick, with their index
+    /// among the pairs, in order.
     pub(super) fn first(
         &self,
         pairs: &[Pair],
@@ -54,9 +54,9 @@ impl Runs {
         }))
     }
 
-    /// The signals that differ in this tick, then others of the scope of the first: registers, then
-    /// the rest. Then registers and inputs of the scopes around it, from the inside out; at the end
-    /// what else there is between it and the outermost scope.
+    /// Returns the signals to show: those that differ in this tick, then others in the scope of
+    /// the first (registers, then the rest), then registers and inputs of the scopes around it,
+    /// from the inside out, and last all other signals between it and the outermost scope.
     fn shown(&self, pairs: &[Pair], differing: &[(u64, usize, u64)], tick: u64) -> Vec<usize> {
         let variable = |place: usize| &self.golden.wave.variables[pairs[place].golden];
         let mut shown: Vec<_> = differing
@@ -86,7 +86,7 @@ impl Runs {
             add(around, &|variable| variable.input);
             around = above(scope);
         }
-        // A VCD does not tell the inputs of the scopes between from their nets.
+        // A VCD does not distinguish inputs from nets in the scopes between.
         let mut between = own.and_then(above);
         while let Some(scope) = between.filter(|scope| scope.contains('.')) {
             add(between, &|_| true);
@@ -114,7 +114,7 @@ impl Runs {
     }
 }
 
-/// The scope that a signal or a scope is in.
+/// Returns the scope that contains a signal or a scope.
 fn above(path: &str) -> Option<&str> {
     path.rsplit_once('.').map(|(scope, _)| scope)
 }

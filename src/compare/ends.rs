@@ -1,9 +1,9 @@
-//! Signals and scopes by the end of their path.
+//! Lookup of signals and scopes by the end of their path.
 
 use super::names::{element, listed};
 use super::wave::Wave;
 
-/// A name that more than one path ends with.
+/// Name that ends more than one path.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Ambiguous {
     pub name: String,
@@ -11,7 +11,7 @@ pub(super) struct Ambiguous {
 }
 
 impl Ambiguous {
-    /// What is wrong, and what would be right.
+    /// Returns the problem, and the allowed names.
     pub fn message(&self, what: &str) -> (String, String) {
         let Ambiguous { name, paths } = self;
         (
@@ -25,13 +25,14 @@ impl Ambiguous {
 }
 
 impl Wave {
-    /// The variable of this path, or the only one whose path ends with it. Aliases are one.
+    /// Returns the variable with this path, or the only one whose path ends with it. Aliases count
+    /// as one.
     pub fn by_end(&self, name: &str) -> Result<Option<usize>, Ambiguous> {
         if let Some(exact) = self.find(name) {
             return Ok(Some(exact));
         }
         let ending = format!(".{}", element(name));
-        // Only the word of a memory has another form.
+        // Only a word of a memory has another form.
         let word = ending.ends_with(']');
         let ends = |path: &str| match word {
             true => element(path).ends_with(&ending),
@@ -57,7 +58,7 @@ impl Wave {
         }
     }
 
-    /// The scope of this path, or the only one whose path ends with it.
+    /// Returns the scope with this path, or the only one whose path ends with it.
     pub fn scope_by_end(&self, name: &str) -> Result<Option<String>, Ambiguous> {
         if self.has_scope(name) {
             return Ok(Some(name.to_owned()));

@@ -1,16 +1,16 @@
-//! Times in which a dump is switched off: nothing is known then.
+//! Gaps in which a dump is switched off: values are unknown then.
 
-/// A time in which a dump is switched off.
+/// Time span in which a dump is switched off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Gap {
     pub from: u64,
-    /// When it is on again; none where it stays off.
+    /// Time at which it is switched on again; `None` if it stays off.
     pub to: Option<u64>,
 }
 
 impl Gap {
-    /// Notes in a list of gaps, in their order, that the dump is switched on or off. What is so
-    /// already stays so.
+    /// Records in an ordered list of gaps that the dump is switched on or off; repeated switching
+    /// has no effect.
     pub fn switch(gaps: &mut Vec<Self>, time: u64, on: bool) {
         match (gaps.last_mut(), on) {
             (Some(gap @ Gap { to: None, .. }), true) => gap.to = Some(time),

@@ -1,24 +1,24 @@
-//! A GHW, the format of GHDL, is looked through before it is read: the reader makes room for
-//! whatever number of strings, types and signals the file claims to have.
+//! Check of a GHW, the format of GHDL, before it is read: the reader allocates memory for any
+//! number of strings, types and signals that the file claims to have.
 
 use crate::input::Fault;
 
 const HEADER: &[u8] = b"GHDLwave\n";
-/// The place of the order of bytes, and its value where the highest comes first.
+/// Position of the byte order, and its value for big endian.
 const ORDER: (usize, u8) = (12, 2);
-/// Sections, and how many counts each begins with.
+/// Sections, and the number of counts at the beginning of each.
 const SECTIONS: [(&[u8; 8], usize); 3] = [
     (b"STR\0\0\0\0\0", 1),
     (b"TYP\0\0\0\0\0", 1),
     (b"HIE\0\0\0\0\0", 3),
 ];
 
-/// True if it begins as a GHW does.
+/// True if a file begins as a GHW does.
 pub(super) fn begins(bytes: &[u8]) -> bool {
     bytes.starts_with(HEADER)
 }
 
-/// Refuses counts that are larger than the file: each of what they count takes a byte at least.
+/// Returns an error for counts larger than the file: each item takes at least a byte.
 pub(super) fn check(file: &str, bytes: &[u8]) -> Result<(), Fault> {
     let high_first = bytes.get(ORDER.0) == Some(&ORDER.1);
     let count = |bytes: &[u8]| -> Option<u64> {

@@ -1,7 +1,7 @@
 use super::value::Value;
 use std::ops::Range;
 
-/// The sampled values of a signal, and the number of the tick that its file counts as 0.
+/// Sampled values of a signal, and the tick that its file counts as 0.
 #[derive(Debug)]
 pub(super) struct Samples {
     pub changes: Vec<(u64, Value)>,
@@ -9,18 +9,18 @@ pub(super) struct Samples {
     pub width: u32,
 }
 
-/// What holding two signals against each other came to.
+/// Result of comparing two signals.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub(super) struct Tally {
-    /// Values held against each other.
+    /// Number of values compared.
     pub compared: u64,
-    /// Values of the golden signal with an x or z in them.
+    /// Number of golden values with an x or z.
     pub unknown: u64,
     pub differing: u64,
     pub first: Option<i128>,
-    /// The first known golden value.
+    /// First known golden value.
     golden: Option<Value>,
-    /// There were two different known golden values.
+    /// True if there were two different known golden values.
     pub moved: bool,
 }
 
@@ -31,7 +31,7 @@ impl Samples {
             .map(|change| self.zero + i128::from(change.0))
     }
 
-    /// How many changes there are up to this tick.
+    /// Returns the number of changes up to this tick.
     fn until(&self, tick: i128) -> usize {
         self.changes
             .partition_point(|change| self.zero + i128::from(change.0) <= tick)
@@ -44,19 +44,19 @@ impl Samples {
         last.map_or(Value::unknown(self.width), |change| change.1)
     }
 
-    /// The value of a tick.
+    /// Returns the value in a tick.
     pub fn at(&self, tick: i128) -> Value {
         self.before(self.until(tick))
     }
 }
 
 impl Tally {
-    /// Takes a known golden value.
+    /// Records a known golden value.
     fn see(&mut self, value: Value) {
         self.moved |= *self.golden.get_or_insert(value) != value;
     }
 
-    /// Takes over what later ticks came to.
+    /// Adds the result of later ticks.
     pub fn add(&mut self, later: Self) {
         self.compared += later.compared;
         self.unknown += later.unknown;
@@ -69,7 +69,7 @@ impl Tally {
     }
 }
 
-/// What is left of some ticks without others; both in order.
+/// Returns some ticks without others; both are in order.
 pub(super) fn without(
     ticks: Range<i128>,
     others: impl Iterator<Item = Range<i128>>,
@@ -87,7 +87,7 @@ pub(super) fn without(
     left
 }
 
-/// Holds two signals against each other in these ticks, from change to change.
+/// Compares two signals in these ticks, from change to change.
 pub(super) fn hold(golden: &Samples, other: &Samples, ticks: Range<i128>) -> Tally {
     let mut tally = Tally::default();
     let (mut g, mut o) = (golden.until(ticks.start), other.until(ticks.start));
@@ -149,7 +149,7 @@ mod tests {
         assert_eq!(tally, expected);
         assert_eq!(hold(&golden, &other, 21..30).differing, 0);
         assert_eq!(hold(&golden, &other, 20..21).first, Some(20));
-        // Within 10 to 19 it holds still, and moves from one such range to another.
+        // In the ticks 10 to 19 it is constant; it changes from one such range to another.
         let mut still = hold(&golden, &other, 10..20);
         assert!(!still.moved);
         still.add(hold(&golden, &other, 15..20));

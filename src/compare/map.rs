@@ -7,7 +7,7 @@ use toml::{Spanned, Value};
 const PARTNER: &str = "a path in quotes, as \"tb.dut.count\", \"!tb.dut.step_n\" or \
                        \"tb.dut.bus[27:4]\", or { name = \"tb.dut.y\", delay = 2 }";
 
-/// What a map file says: which names stand for each other where they differ.
+/// Contents of a map file: pairs of signals whose names differ.
 ///
 /// ```
 /// use motion_rtl::compare::Map;
@@ -27,11 +27,11 @@ const PARTNER: &str = "a path in quotes, as \"tb.dut.count\", \"!tb.dut.step_n\"
 /// "#).unwrap();
 /// ```
 ///
-/// Where there are `[scopes]`, a signal that is in none of them has a partner only by `[signals]`
-/// or by [`Settings::scope`](super::Settings::scope).
+/// With `[scopes]`, a signal outside all of them has a partner only by `[signals]` or by
+/// [`Settings::scope`](super::Settings::scope).
 ///
-/// A name of the other file may be the end of a path, if it is the end of only one: `dut.y` is
-/// `TOP.tb.dut.y` too.
+/// A name of the other file may be the end of a path, if only one path ends so: `dut.y` may stand
+/// for `TOP.tb.dut.y`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Map {
     pub(super) file: String,
@@ -41,16 +41,16 @@ pub struct Map {
     pub(super) signals: Vec<Entry<Partner>>,
 }
 
-/// A line of a map.
+/// Line of a map.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Entry<T> {
     pub line: usize,
-    /// The name in the golden file.
+    /// Name in the golden file.
     pub golden: String,
     pub other: T,
 }
 
-/// What stands for a golden signal.
+/// Partner of a golden signal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Partner {
     pub name: String,
@@ -75,16 +75,16 @@ impl Map {
     /// Reads a map file.
     ///
     /// # Errors
-    /// As [`read_string`], and what [`parse`](Map::parse) objects to.
+    /// Returns the errors of [`read_string`] and [`parse`](Map::parse).
     pub fn read(path: &Path) -> Result<Self, Fault> {
         let text = read_string(path, "a map in TOML")?;
         Self::parse(&path.display().to_string(), &text)
     }
 
-    /// Reads a map from text that is called `file` in faults.
+    /// Parses a map from text; errors name the file `file`.
     ///
     /// # Errors
-    /// No TOML, an unknown key, a name that is given twice, a partner that is none.
+    /// Returns an error for invalid TOML, an unknown key, a duplicate name, or an invalid partner.
     pub fn parse(file: &str, text: &str) -> Result<Self, Fault> {
         let line = |place: usize| text[..place.min(text.len())].matches('\n').count() + 1;
         let written: Written = toml::from_str(text).map_err(|error| {
@@ -140,7 +140,7 @@ impl Map {
                 other,
             });
         }
-        // Messages come in the order of the file.
+        // Messages follow the order of the file.
         map.scopes.sort_by_key(|entry| entry.line);
         map.signals.sort_by_key(|entry| entry.line);
         Ok(map)
@@ -165,7 +165,7 @@ fn partner(value: &Value) -> Result<Partner, (String, &'static str)> {
                 .keys()
                 .find(|key| !matches!(key.as_str(), "name" | "delay"))
             {
-                // An unquoted path is a table in a table.
+                // An unquoted path is a nested table.
                 return Err((
                     format!("unknown key {key}"),
                     "name and delay; a golden name with dots stands in quotes",

@@ -1,4 +1,4 @@
-//! What a map's lines mean in two files.
+//! Meaning of a map's lines in two files.
 
 use super::map::{Entry, Map, Partner};
 use super::names::brackets;
@@ -95,7 +95,7 @@ pub(super) fn ignored(golden: &Wave, map: &Map) -> Result<HashSet<usize>, Fault>
     Ok(ignored)
 }
 
-/// The map's scopes with the other file's in full.
+/// Returns the map's scopes with the other file's in full.
 pub(super) fn scopes(golden: &Wave, other: &Wave, map: &Map) -> Result<Vec<Entry<String>>, Fault> {
     let full = |entry: &Entry<String>| {
         if !golden.has_scope(&entry.golden) {

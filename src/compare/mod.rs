@@ -1,7 +1,7 @@
-//! Two waveforms held against each other, tick by tick.
+//! Comparison of two waveforms, tick by tick.
 //!
-//! This is for holding an implementation in Verilog or VHDL against a dump of this crate: the
-//! *golden* file is ours, the *other* is what a simulator wrote. Both are VCD, FST or GHW.
+//! Compares an implementation in Verilog or VHDL with a dump of this crate: the *golden* file is
+//! the dump, the *other* file is written by a simulator. Both are VCD, FST or GHW.
 //!
 //! ```no_run
 //! use motion_rtl::compare::{Settings, compare};
@@ -11,44 +11,43 @@
 //! # Ok::<(), motion_rtl::input::Fault>(())
 //! ```
 //!
-//! **Ticks.** A tick has the values that a flip-flop samples: those that stand just before a
-//! rising edge of the clock. A rising edge is a change from 0 to 1, or from an x or z that the file
-//! begins with; the first value in a file is none. Tick 0 lasts to the first edge, tick 1 to the
-//! second. What changes at the time of an edge belongs to the tick that begins with it; within a
-//! tick the last value counts. Behind the last edge there is one more tick if the clock falls
-//! again. A window of one of this crate's dumps counts its ticks as the run did: its times tell.
-//! From its first 0 or 1 on the clock must be one of both, except where the dump is switched off.
+//! **Ticks.** A tick has the values that a flip-flop samples: those just before a rising edge of
+//! the clock. A rising edge is a change from 0 to 1, or from an initial x or z of the file; the
+//! first value in a file is none. Tick 0 lasts to the first edge, tick 1 to the second. A change
+//! at the time of an edge belongs to the tick that begins with it; within a tick the last value
+//! counts. After the last edge there is one more tick if the clock falls again. A window of one of
+//! this crate's dumps counts its ticks as the run did; its times give the number. From its first 0
+//! or 1 on the clock must be 0 or 1, except while the dump is switched off.
 //!
-//! **Dumps that are switched off** (`$dumpoff`) and on again have ticks in between, by the period of
-//! the clock, which must then be a whole part of that time. They are not compared, and counted.
-//! Ticks before a dump is switched on for the first time are none.
+//! **Dumps that are switched off** (`$dumpoff`) and on again have ticks in between. Their number
+//! follows from the period of the clock, of which the gap must be a whole multiple. They are
+//! counted but not compared. There are no ticks before a dump is switched on for the first time.
 //!
 //! **Pairs.** A golden signal is paired with the signal of the same path below the scope that
-//! stands for golden's outermost one. That is the scope with the most partners, unless
-//! [`Settings::scope`] names it, and none where the map names scopes. `mem.word5` and `mem.stage5`
-//! are the same as `mem[5]`; where the
-//! other file has a memory of single bits as a vector, they are its bits. A [`Map`] pairs what has
-//! other names; the end of a path will do for the other file's, where it is the only one. Clocks,
-//! and variables without bits, are not compared. Signals of a clock's name with the same edges
-//! are one clock.
+//! corresponds to golden's outermost one. That is the scope with the most partners, unless
+//! [`Settings::scope`] names it; there is none if the map names scopes. `mem.word5` and
+//! `mem.stage5` are the same as `mem[5]`; if the other file has a memory of single bits as a
+//! vector, they are its bits. A [`Map`] pairs signals with other names; in the other file the end
+//! of a path is enough, if it is unique. Clocks, and variables without bits, are not compared.
+//! Signals of a clock's name with the same edges are one clock.
 //!
-//! **Values.** A known golden value equals the same bits and no x or z. A golden value with an x or
-//! z, or before the first value of a signal, is not compared. Signals of more than 64 bits are not
-//! compared. A partner of another width is a difference. What is not compared is counted, and pairs
-//! of which no value was compared are named: that nothing of them differs says nothing. Where no
-//! value of any pair was compared, that is an error.
+//! **Values.** A known golden value equals the same bits without x or z. A golden value with an x
+//! or z, or before the first value of a signal, is not compared. Signals of more than 64 bits are
+//! not compared. A partner of another width is a difference. Values that are not compared are
+//! counted, and pairs without any compared value are named: no difference there proves nothing. If
+//! no value of any pair was compared, that is an error.
 //!
-//! **Ports out.** Two files are equal only if every port out of golden's outermost circuit was compared.
-//! Waves of this crate tell which they are, an FST or GHW by the directions of its variables; for other
-//! golden files [`Settings::ports_out`] names them. [`Settings::leave`] and `leave` in a [`Map`] leave
-//! some out by name.
+//! **Output ports.** Two files are equal only if every output port of golden's outermost circuit
+//! was compared. Waves of this crate name them, an FST or GHW by the directions of its variables;
+//! for other golden files [`Settings::ports_out`] names them. [`Settings::leave`] and `leave` in a
+//! [`Map`] leave some out by name.
 //!
-//! **Ticks of both.** Tick n of the golden file is held against tick n + [`Settings::skip`] of the
-//! other. What only one of them has is counted, by itself what one has behind the other's last tick:
-//! a file may be cut off there ([`Report::same_length`]).
+//! **Common ticks.** Tick n of the golden file is compared with tick n + [`Settings::skip`] of the
+//! other. Ticks that only one file has are counted; those after the other's last tick have a count
+//! of their own, since that file may be cut off ([`Report::same_length`]).
 //!
-//! **Files that are cut off** are refused where that shows: one of ours that does not end with a time
-//! in a whole line.
+//! **Truncated files** are refused if that can be detected: a dump of this crate must end with a
+//! time in a complete line.
 
 mod around;
 mod ends;
@@ -86,36 +85,36 @@ use std::path::Path;
 use std::thread::Builder;
 use wave::Wave;
 
-/// How two files are compared.
+/// Settings of a comparison.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Settings {
-    /// The clock, by its path or the end of its path.
+    /// Clock, by its path or the end of its path.
     pub clock: String,
-    /// The other file's clock, where it has another name.
+    /// Clock of the other file, if it has another name.
     pub other_clock: Option<String>,
-    /// The scope of the other file that stands for golden's outermost scope, by its path or the
-    /// end of its path; without it the one with the most partners, or none where the map names
+    /// Scope of the other file that corresponds to golden's outermost scope, by its path or the
+    /// end of its path. By default the one with the most partners, or none if the map names
     /// scopes.
     pub scope: Option<String>,
-    /// Pairs names that differ in upper and lower case only, where no other name is equal.
+    /// True to pair names that differ in case only, if no other name is equal.
     pub ignore_case: bool,
-    /// Names that differ, and signals to leave out.
+    /// Pairs of different names, and signals to leave out.
     pub map: Map,
-    /// The ports out of a golden file that does not tell them, by their paths or the ends of them.
+    /// Output ports of a golden file that does not name them, by their paths or the ends of them.
     pub ports_out: Vec<String>,
-    /// Ports out that are not compared, by their paths or the ends of them.
+    /// Output ports that are not compared, by their paths or the ends of them.
     pub leave: Vec<String>,
-    /// The tick of the other file that is held against golden's tick 0. Below 0 where the other
-    /// file begins later.
+    /// Tick of the other file that is compared with golden's tick 0; negative if the other file
+    /// begins later.
     pub skip: i64,
-    /// The golden ticks to compare.
+    /// Golden ticks to compare.
     pub ticks: Range<u64>,
-    /// Ticks that are shown before the first mismatch.
+    /// Number of ticks shown before the first mismatch.
     pub around: u64,
 }
 
 impl Default for Settings {
-    /// All ticks by the clock `clk`; 4 are shown before a mismatch.
+    /// Compares all ticks by the clock `clk` and shows 4 ticks before a mismatch.
     fn default() -> Self {
         Settings {
             clock: "clk".to_owned(),
@@ -134,25 +133,25 @@ impl Default for Settings {
 
 /// Compares two waveform files.
 ///
-/// The reader of waveforms panics at some files that are malformed. That is caught and becomes an
-/// error, where panics unwind; so that nothing is printed, the first call of this or of
-/// [`template`] in a process installs a panic hook that is silent meanwhile and otherwise calls the
-/// one before it.
+/// The waveform reader panics on some malformed files. Such a panic is caught and becomes an
+/// error, if panics unwind. To suppress its output, the first call of this function or of
+/// [`template`] in a process installs a panic hook that is silent meanwhile and otherwise calls
+/// the one before it.
 ///
 /// # Errors
-/// A file that cannot be read or is no complete VCD, FST or GHW, a clock that is none or is not to be
-/// found, a golden file without ports out, no scope or more than one that stands for golden's, a map
-/// that does not fit the files, nothing to compare.
+/// Returns an error if a file cannot be read or is not a complete VCD, FST or GHW, a clock is
+/// unusable or missing, the golden file has no output ports, no scope or more than one corresponds
+/// to golden's, the map does not fit the files, or there is nothing to compare.
 pub fn compare(golden: &Path, other: &Path, settings: &Settings) -> Result<Report, Fault> {
     let (golden, other) = read(golden, other)?;
     compare_waves(golden, other, settings)
 }
 
-/// A map to fill in: the golden signals that have no partner, and the other file's names that are
-/// left. [`Settings::map`] may pair some already.
+/// Returns a map to fill in: the golden signals without partner, and the remaining names of the
+/// other file. [`Settings::map`] may pair some already.
 ///
 /// # Errors
-/// A file, a clock or a map as [`compare`] refuses them.
+/// Returns the errors of [`compare`] for a file, a clock or a map.
 pub fn template(golden: &Path, other: &Path, settings: &Settings) -> Result<String, Fault> {
     let (mut golden, mut other) = read(golden, other)?;
     let clocks = clocks(&mut golden, &mut other, settings)?;
@@ -167,7 +166,7 @@ pub fn template(golden: &Path, other: &Path, settings: &Settings) -> Result<Stri
 }
 
 fn read(golden: &Path, other: &Path) -> Result<(Wave, Wave), Fault> {
-    // Both before either is read.
+    // Start both before either is read.
     for path in [golden, other] {
         size(path, wave::LARGEST)?;
     }
@@ -176,7 +175,7 @@ fn read(golden: &Path, other: &Path) -> Result<(Wave, Wave), Fault> {
         let other = Wave::read(other);
         let golden = match reading {
             Ok(reading) => reading.join().unwrap_or_else(|panic| resume_unwind(panic)),
-            // No thread to be had: one after the other.
+            // If no thread can be started: one after the other.
             Err(_) => Wave::read(golden),
         };
         golden.and_then(|golden| Ok((golden, other?)))

@@ -1,19 +1,19 @@
 //! Paths of signals in different dumps.
 //!
-//! A path is scopes and a name with dots between them. The element of a memory is written
-//! `mem[5]`; `mem.word5` and `mem.stage5`, as this crate writes them, mean the same.
+//! A path is scopes and a name with dots between them. An element of a memory is written `mem[5]`;
+//! `mem.word5` and `mem.stage5`, which this crate writes, mean the same.
 
-/// Names that a message lists at most.
+/// Greatest number of names in a message.
 pub(super) const LISTED: usize = 20;
 
-/// The path of a variable from the reader's, which takes elements of memories for scopes and
-/// keeps the backslash of an escaped name.
+/// Converts a path of the reader, which takes memory elements for scopes and keeps the backslash
+/// of an escaped name.
 pub(super) fn path(full_name: &str) -> String {
     let plain = full_name.replace(".\\", ".").replace(".[", "[");
     plain.strip_prefix('\\').unwrap_or(&plain).to_owned()
 }
 
-/// The path with a word or stage written as an element of its memory.
+/// Returns the path with a word or stage written as an element of its memory.
 pub(super) fn element(path: &str) -> String {
     let Some((scope, name)) = path.rsplit_once('.') else {
         return path.to_owned();
@@ -31,7 +31,7 @@ pub(super) fn element(path: &str) -> String {
     }
 }
 
-/// A path and the bits or the element in brackets behind it.
+/// Splits a path from the bits or the element in brackets after it.
 pub(super) fn brackets(path: &str) -> Option<(&str, i64, i64)> {
     let (base, inner) = path.strip_suffix(']')?.rsplit_once('[')?;
     let (first, last) = inner.split_once(':').unwrap_or((inner, inner));
@@ -42,7 +42,7 @@ pub(super) fn brackets(path: &str) -> Option<(&str, i64, i64)> {
     ))
 }
 
-/// Names for a message, not too many.
+/// Lists names for a message, at most [`LISTED`].
 pub(super) fn listed<S: AsRef<str>>(names: &[S]) -> String {
     let shown: Vec<_> = names.iter().take(LISTED).map(AsRef::as_ref).collect();
     let mut text = shown.join(", ");

@@ -1,4 +1,4 @@
-//! Which signal of the other file stands for which of the golden one.
+//! Pairing of golden signals with signals of the other file.
 
 use super::map::{Entry, Map};
 use super::mapped::{by_name, golden_signal, ignored, scopes};
@@ -11,38 +11,37 @@ use super::wave::Wave;
 use crate::input::Fault;
 use std::collections::HashSet;
 
-/// A golden signal and the bits of the other file that stand for it.
+/// Golden signal with the bits of the other file that correspond to it.
 #[derive(Debug, Clone)]
 pub(super) struct Pair {
     pub golden: usize,
     pub other: usize,
-    /// The lowest bit of the other signal.
+    /// Lowest bit in the other signal.
     pub low: u32,
     pub width: u32,
     pub invert: bool,
-    /// Ticks by which the other one is later.
+    /// Delay of the other signal in ticks.
     pub delay: u64,
-    /// The other one as the report calls it.
+    /// Name of the other signal in the report.
     pub name: String,
 }
 
-/// What became of every golden signal.
+/// Result for every golden signal.
 #[derive(Debug, Default)]
 pub(super) struct Pairing {
     pub pairs: Vec<Pair>,
-    /// The scope that stands for golden's top, where it was needed.
+    /// Scope that corresponds to golden's top, if one was needed.
     pub scope: Option<String>,
     pub ports: Ports,
     pub ignored: Vec<usize>,
     pub without_partner: Vec<usize>,
     pub too_wide: Vec<usize>,
     pub widths: Vec<WidthDifference>,
-    /// Partners, in the other file, of the last two.
+    /// Partners, in the other file, of the last two lists.
     not_compared: Vec<usize>,
 }
 
-/// Pairs the signals. The clocks are no pair. That nothing pairs by its name is an error unless it
-/// is `allowed`.
+/// Pairs the signals, without the clocks. Returns an error if no names match, unless `allowed`.
 pub(super) fn pair(
     golden: &Wave,
     other: &Wave,
@@ -112,7 +111,7 @@ pub(super) fn pair(
         }
     }
 
-    // Who names scopes wants these, and no other beside them that would be found by itself.
+    // If the map names scopes, only these are searched, and no others.
     let scope = match scopes[..] {
         [_, ..] if wanted.is_none() => None,
         _ => {
@@ -135,7 +134,7 @@ pub(super) fn pair(
 }
 
 impl Pairing {
-    /// The signals of the other file that no pair takes bits of, compared or not; aliases once.
+    /// Returns the signals of the other file that have no partner, compared or not; aliases once.
     pub fn free(&self, other: &Wave, clock: usize) -> Vec<usize> {
         let pairs = self.pairs.iter().map(|pair| pair.other);
         let pairs = pairs
@@ -158,7 +157,7 @@ impl Pairing {
             if let Some(pair) = partner(golden, other, index, &name) {
                 return self.add(golden, pair);
             }
-            // HDL has no bundles: there their names stand before those of their signals.
+            // Verilog has no bundles: their names become prefixes of signal names.
             match name.rfind('.') {
                 Some(dot) => name.replace_range(dot..=dot, "_"),
                 None => return self.without_partner.push(index),
@@ -186,8 +185,8 @@ impl Pairing {
     }
 }
 
-/// The signal of this path, or the bit of a vector that stands for a word of one bit: some
-/// dumps write a memory of single bits as a vector.
+/// Returns the signal with this path, or the bit of a vector for a word of one bit: some dumps
+/// write a memory of single bits as a vector.
 pub(super) fn partner(golden: &Wave, other: &Wave, index: usize, name: &str) -> Option<Pair> {
     let whole = |found: usize| Pair {
         golden: index,
@@ -215,7 +214,7 @@ pub(super) fn partner(golden: &Wave, other: &Wave, index: usize, name: &str) -> 
     })
 }
 
-/// Where nothing is paired there is nothing to compare.
+/// Returns an error if nothing is paired.
 pub(super) fn nothing(golden: &Wave, other: &Wave, pairing: &Pairing) -> Option<Fault> {
     if !pairing.pairs.is_empty() || !pairing.widths.is_empty() {
         return None;

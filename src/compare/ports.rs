@@ -1,4 +1,4 @@
-//! Ports out of the golden file: each is compared, or left out by its name.
+//! Output ports of the golden file: each is compared, or left out by name.
 
 use super::Settings;
 use super::mapped::golden_signal;
@@ -9,7 +9,7 @@ use std::collections::HashSet;
 const ALLOWED: &str = "--ports-out NAME,… that names them, a VCD or FST of motion-rtl, or an FST or \
                        GHW with directions";
 
-/// Ports out that are compared, and those that are left out.
+/// Output ports that are compared, and those that are left out.
 #[derive(Debug, Default)]
 pub(super) struct Ports {
     pub out: Vec<usize>,
@@ -17,7 +17,8 @@ pub(super) struct Ports {
 }
 
 impl Ports {
-    /// Those that the golden file or [`Settings::ports_out`] names, without the clock.
+    /// Returns the output ports named by the golden file or by [`Settings::ports_out`], without
+    /// the clock.
     pub fn of(golden: &Wave, clock: usize, settings: &Settings) -> Result<Self, Fault> {
         let fault = |problem: &str, allowed: &str| {
             Fault::new(&golden.file, 0, "ports out", problem, allowed)

@@ -1,5 +1,5 @@
-//! The reader of waveforms panics at some malformed files. Such a panic becomes an error here and
-//! prints nothing.
+//! Conversion of panics into errors, without output: the waveform reader panics on some malformed
+//! files.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
@@ -11,9 +11,10 @@ thread_local! {
 
 static HOOK: Once = Once::new();
 
-/// What `f` returns; `None` where it panicked. What it was working on must not be used after that.
+/// Returns the result of `f`; `None` if it panicked. Values that `f` modified must not be used
+/// after that.
 pub(super) fn catch<T>(f: impl FnOnce() -> T) -> Option<T> {
-    // One hook for all threads: what other threads print stays as it was.
+    // One hook for all threads: the output of other threads is unaffected.
     HOOK.call_once(|| {
         let loud = panic::take_hook();
         panic::set_hook(Box::new(move |info| {

@@ -2,7 +2,7 @@ use super::names::{LISTED, listed};
 use super::report::{Mismatch, Report, Side};
 use std::fmt::{self, Write as _};
 
-/// Differing signals that are listed unless all are asked for.
+/// Number of differing signals listed by default.
 const DIFFERENCES: usize = 10;
 
 impl fmt::Display for Report {
@@ -19,10 +19,10 @@ fn count(number: u64, one: &str) -> String {
 }
 
 impl Report {
-    /// The report as text. Long lists are cut, unless `all` is asked for.
+    /// Formats the report. Long lists are cut unless `all` is true.
     pub fn text(&self, all: bool) -> String {
         let mut text = String::new();
-        // Writing to a string does not fail.
+        // Writing to a string cannot fail.
         let _ = self.write(&mut text, all);
         text
     }
@@ -219,7 +219,7 @@ fn mismatch(out: &mut String, first: &Mismatch) -> fmt::Result {
     table(out, first)
 }
 
-/// Values in hexadecimal, `golden!other` where they differ.
+/// Writes values in hexadecimal, `golden!other` if they differ.
 fn table(out: &mut String, first: &Mismatch) -> fmt::Result {
     let mut columns = vec![vec!["tick".to_owned()]];
     columns[0].extend(first.rows.iter().map(|row| row.signal.clone()));

@@ -8,7 +8,7 @@ use crate::input::Fault;
 use std::collections::HashSet;
 use std::ops::Range;
 
-/// One file with its ticks.
+/// File with its ticks.
 #[derive(Debug)]
 pub(super) struct Run {
     pub wave: Wave,
@@ -21,7 +21,7 @@ pub(super) struct Run {
 pub(super) struct Runs {
     pub golden: Run,
     pub other: Run,
-    /// The golden tick of the other file's first tick.
+    /// Golden tick of the other file's first tick.
     pub start: i128,
     pub common: Range<i128>,
 }
@@ -37,7 +37,7 @@ pub(super) fn number(tick: i128) -> u64 {
     u64::try_from(tick).unwrap_or(0)
 }
 
-/// The ticks in which a dump was switched off, if its first has this number.
+/// Returns the ticks in which a dump was switched off; its first tick has the number `zero`.
 fn off(ticks: &Ticks, zero: i128) -> impl Iterator<Item = Range<i128>> {
     let shifted = move |off: &Range<u64>| zero + i128::from(off.start)..zero + i128::from(off.end);
     ticks.off.iter().map(shifted)
@@ -95,9 +95,9 @@ impl Runs {
         Ok(tally)
     }
 
-    /// The ticks in which a signal is held against golden's.
+    /// Returns the ticks in which a signal is compared with golden's.
     pub fn held(&self, other: &Samples) -> Vec<Range<i128>> {
-        // A signal that is late has its last ticks behind the end of the file.
+        // The last ticks of a delayed signal are after the end of the file.
         let end = self
             .common
             .end
@@ -196,7 +196,7 @@ impl Runs {
         })
     }
 
-    /// That no value was compared, which is not the same as that the files are equal.
+    /// Returns the error that no value was compared, which does not mean that the files are equal.
     pub fn no_value(&self, report: &Report) -> Fault {
         let ticks = span(self.common.clone());
         let off = report.golden.switched_off + report.other.switched_off;

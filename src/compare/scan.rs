@@ -1,5 +1,5 @@
-//! A VCD is looked through before it is read: the reader takes much that is wrong in silence, and
-//! panics at the rest.
+//! Check of a VCD before it is read: the reader silently accepts many mistakes, and panics on
+//! others.
 
 mod header;
 
@@ -12,40 +12,40 @@ use std::ops::Range;
 const VALUES: &str =
     "0, 1, x or z and the code of a variable, b and the bits, r, s, or # and a time";
 
-/// The most bytes of all values of a file as the reader holds them, a quarter of their bits: a value
-/// may be a million times as wide as it is written.
+/// Greatest size of all values of a file in the reader's memory, in bytes, at a quarter byte per
+/// bit: a value may be a million times as wide as its text.
 const ROOM: u64 = 1 << 30;
 
-/// What there is to know of a VCD beside what the reader tells.
+/// Facts about a VCD that the reader does not report.
 #[derive(Debug, Default)]
 pub(super) struct Scanned {
-    /// Written by this crate.
+    /// True if this crate wrote the file.
     pub ours: bool,
-    /// Paths of the ports out, where a comment names them.
+    /// Paths of the output ports, if a comment names them.
     pub ports_out: Option<Vec<String>>,
-    /// When its dump was switched off, in order.
+    /// Gaps in which the dump was switched off, in order.
     pub gaps: Vec<Gap>,
-    /// How to make the file one that the reader takes.
+    /// Edits that make the file readable.
     pub edits: Edits,
-    /// Variables without bits that the edits leave out.
+    /// Number of variables without bits that the edits remove.
     pub without_bits: usize,
 }
 
-/// Changes to a file before it is read: what is not compared must not make it unreadable.
+/// Edits of a file before it is read: signals that are not compared must not make it unreadable.
 #[derive(Debug, Default)]
 pub(super) struct Edits {
-    /// Bytes to replace by spaces, such as a second `$version` and values that are none.
+    /// Bytes to replace by spaces, such as a second `$version` and invalid values.
     blank: Vec<Range<usize>>,
-    /// Digits that stand apart from their code, and the place in front of that.
+    /// Digits that are separated from their code, and the position in front of the code.
     moved: Vec<(usize, usize)>,
-    /// The end of the header, in which any white space is a space.
+    /// End of the header, in which any white space becomes a space.
     header: usize,
-    /// The end of the file, where a dump is switched off and never on again.
+    /// End of the file, if the dump is switched off and never on again.
     end: Option<usize>,
 }
 
 impl Edits {
-    /// Makes them.
+    /// Applies the edits.
     pub fn apply(&self, bytes: &mut Vec<u8>) {
         for blank in &self.blank {
             bytes[blank.clone()].fill(b' ');
@@ -62,18 +62,18 @@ impl Edits {
     }
 }
 
-/// What the values of a code are.
+/// Kind of values of a code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Bits(u32),
     Real,
     String,
-    /// No value at all, whatever stands there: a variable without a width, or with one that is too
-    /// large to be compared.
+    /// Nothing to compare, whatever the values: a variable without a width, or with one that is
+    /// too large.
     Nothing,
 }
 
-/// The words of a file with their lines.
+/// Words of a file with their lines.
 struct Words<'a> {
     file: &'a str,
     bytes: &'a [u8],
@@ -81,7 +81,7 @@ struct Words<'a> {
     line: usize,
 }
 
-/// Refuses what is no complete VCD, with the line.
+/// Returns an error with the line if the file is not a complete VCD.
 pub(super) fn check(file: &str, bytes: &[u8]) -> Result<Scanned, Fault> {
     let mut words = Words {
         file,
@@ -108,7 +108,7 @@ pub(super) fn check(file: &str, bytes: &[u8]) -> Result<Scanned, Fault> {
     }
     let body = body(&mut words, &codes)?;
     let whole_line = bytes.last() == Some(&b'\n');
-    // Others may do without the last line's end.
+    // Other programs may leave out the last line end.
     if ours && !whole_line {
         return Err(words.cut_off("the file ends within this line"));
     }
@@ -161,8 +161,8 @@ impl<'a> Words<'a> {
         self.fault(b"file", problem, "a complete VCD: this one is cut off")
     }
 
-    /// The code behind a real number or a string: the next word, or the last one in the line, as a
-    /// text may have spaces.
+    /// Returns the code after a real number or a string: the next word, or the last one in the
+    /// line, since a text may contain spaces.
     fn code_of_text(&mut self, codes: &HashMap<&[u8], Kind>) -> Option<&'a [u8]> {
         let from = self.place;
         let line = self.bytes[from..].iter().position(|&byte| byte == b'\n');
@@ -190,7 +190,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// The words of a command up to its `$end`.
+    /// Returns the words of a command up to its `$end`.
     fn command(&mut self, name: &[u8]) -> Result<Vec<&'a [u8]>, Fault> {
         let line = self.line;
         let mut words = Vec::new();
@@ -211,11 +211,11 @@ impl<'a> Words<'a> {
 /// Facts about the values, collected while they are read.
 #[derive(Default)]
 struct Body {
-    /// The last word is a time.
+    /// True if the last word is a time.
     ends_with_time: bool,
-    /// When the dump is switched off for a while.
+    /// Gaps in which the dump is switched off.
     gaps: Vec<Gap>,
-    /// Where it is switched off, when, and if there are values before.
+    /// Line and time at which the dump was switched off, and true if there were values before.
     off: Option<(usize, u64, bool)>,
     blank: Vec<Range<usize>>,
     moved: Vec<(usize, usize)>,
@@ -301,12 +301,12 @@ fn body(words: &mut Words<'_>, codes: &HashMap<&[u8], Kind>) -> Result<Body, Fau
             }
             _ => false,
         };
-        // Nothing but white space is between the value and its code.
+        // Only white space is between the value and its code.
         let between = begin + word.len()..words.place - code.len();
         let between = words.bytes.get(between).unwrap_or_default();
         let whole = fits && between.iter().all(u8::is_ascii_whitespace);
         if !whole && !matches!(kind, Kind::Bits(_)) {
-            // Nobody looks at it.
+            // The value is never read.
             if body.moved.last().is_some_and(|last| last.0 == begin) {
                 body.moved.pop();
             }

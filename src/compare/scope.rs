@@ -1,4 +1,4 @@
-//! The scope of the other file that stands for golden's top.
+//! Search for the scope of the other file that corresponds to golden's top.
 
 use super::names::listed;
 use super::pair::partner;
@@ -6,13 +6,13 @@ use super::wave::Wave;
 use crate::input::Fault;
 use std::collections::{HashMap, HashSet};
 
-/// The path of a golden signal without the top scope.
+/// Returns the path of a golden signal without the top scope.
 pub(super) fn relative(golden: &Wave, index: usize) -> &str {
     let path = &golden.variables[index].path;
     path.split_once('.').map_or(path, |(_, below)| below)
 }
 
-/// A path below a scope; the scope without a name is the file itself.
+/// Returns a path below a scope; an empty scope is the file itself.
 pub(super) fn below(scope: &str, path: &str) -> String {
     match scope {
         "" => path.to_owned(),
@@ -20,8 +20,8 @@ pub(super) fn below(scope: &str, path: &str) -> String {
     }
 }
 
-/// The scope that is wanted, or the one with the most partners. Where there is none it is an
-/// error, unless something is paired already.
+/// Returns the wanted scope, or the one with the most partners. If there is none, returns an error
+/// unless something is paired already.
 pub(super) fn find(
     golden: &Wave,
     other: &Wave,
@@ -87,7 +87,8 @@ pub(super) fn find(
     }
 }
 
-/// The scopes with the most partners. Those that hold the same signals by other names are one.
+/// Returns the scopes with the most partners. Scopes that contain the same signals by other names
+/// count as one.
 fn candidates(golden: &Wave, other: &Wave, clock: usize, signals: &[usize]) -> Vec<String> {
     let wanted: HashSet<_> = signals
         .iter()
@@ -106,7 +107,7 @@ fn candidates(golden: &Wave, other: &Wave, clock: usize, signals: &[usize]) -> V
         }
         for (place, _) in path.match_indices('.') {
             if wanted.contains(&path[place + 1..]) {
-                // The scope as it is written.
+                // Scope as written in the file.
                 let scope = &variable.path[..place];
                 *counts.entry(scope.to_owned()).or_default() += 1;
             }
@@ -118,7 +119,7 @@ fn candidates(golden: &Wave, other: &Wave, clock: usize, signals: &[usize]) -> V
         .filter(|(_, count)| *count == most)
         .map(|(scope, _)| scope)
         .collect();
-    // The innermost of them stands for all.
+    // The innermost one represents them.
     best.sort_by(|a, b| b.len().cmp(&a.len()).then_with(|| a.cmp(b)));
     let mut seen = HashSet::new();
     best.retain(|scope| {

@@ -1,5 +1,5 @@
-//! An FST is looked through before it is read: the reader makes room for whatever number of bytes
-//! or items the file claims to have, and where there is no such room the program ends.
+//! Check of an FST before it is read: the reader allocates any number of bytes or items that the
+//! file claims to have, and the program ends if that fails.
 
 mod packed;
 mod values;
@@ -10,11 +10,11 @@ use crate::input::Fault;
 use packed::{DEFLATE, lz4_length, number, varint, zlib};
 
 const HEADER: u8 = 0;
-/// With the eight bytes of the length itself.
+/// Includes the eight bytes of the length itself.
 const HEADER_LENGTH: u64 = 329;
 const BLACKOUT: u8 = 2;
 const GEOMETRY: u8 = 3;
-/// The whole file, packed by gzip.
+/// Whole file packed by gzip.
 const WRAPPER: u8 = 254;
 /// Header of a gzip stream without a name and without a comment.
 const GZIP: [u8; 4] = [0x1f, 0x8b, 8, 0];
@@ -25,21 +25,21 @@ struct Section<'a> {
     bytes: &'a [u8],
 }
 
-/// Widths of the signals as the file tells them, by handle.
+/// Widths of the signals according to the file, by handle.
 struct Geometry {
-    /// 0 where values bring their length.
+    /// Length per signal; 0 if its values carry a length.
     lengths: Vec<u32>,
 }
 
-/// True if it begins as an FST does: with a header, which has always the same length.
+/// True if a file begins as an FST does: with a header, which always has the same length.
 ///
-/// The reader looks for this too, but goes on for ever behind lengths that overflow.
+/// The reader checks this too, but loops forever after lengths that overflow.
 pub(super) fn begins(bytes: &[u8]) -> bool {
     bytes.first() == Some(&HEADER) && number(bytes, 1) == Some(HEADER_LENGTH)
 }
 
-/// The FST in a file that is packed as a whole, as GHDL, NVC and `vvp -fst-space` write it; nothing
-/// where the file is none of those.
+/// Unpacks an FST that is packed as a whole, as GHDL, NVC and `vvp -fst-space` write it; returns
+/// `None` if the file is not packed.
 pub(super) fn unwrap(file: &str, bytes: &[u8]) -> Result<Option<Vec<u8>>, Fault> {
     if bytes.first() != Some(&WRAPPER) {
         return Ok(None);
@@ -70,8 +70,8 @@ pub(super) fn unwrap(file: &str, bytes: &[u8]) -> Result<Option<Vec<u8>>, Fault>
     }
 }
 
-/// Refuses sections that claim more than they hold. Gives the times in which the dump was
-/// switched off.
+/// Returns an error for sections that claim more than they contain; else the gaps in which the
+/// dump was switched off.
 pub(super) fn check(file: &str, bytes: &[u8]) -> Result<Vec<Gap>, Fault> {
     checked(bytes).ok_or_else(|| {
         let allowed = "a complete FST, from a simulator that has ended";
@@ -86,7 +86,7 @@ fn checked(bytes: &[u8]) -> Option<Vec<Gap>> {
     for section in &sections {
         match section.kind {
             BLACKOUT => blackouts(section.bytes, &mut gaps)?,
-            // The reader takes the last one.
+            // The reader uses the last one.
             GEOMETRY => geometry = Some(Geometry::read(section.bytes)?),
             _ => {}
         }
@@ -98,7 +98,8 @@ fn checked(bytes: &[u8]) -> Option<Vec<Gap>> {
     Some(gaps)
 }
 
-/// How many, then for each whether the dump is on from there, and the time since the one before.
+/// Reads the gaps: their number, then for each whether the dump is on from there, and the time
+/// since the one before.
 fn blackouts(bytes: &[u8], gaps: &mut Vec<Gap>) -> Option<()> {
     let (count, mut rest) = varint(bytes)?;
     let mut time = 0u64;
@@ -112,7 +113,7 @@ fn blackouts(bytes: &[u8], gaps: &mut Vec<Gap>) -> Option<()> {
     Some(())
 }
 
-/// The sections without kind and length, to the end of the file.
+/// Returns the sections without kind and length, to the end of the file.
 fn sections(mut rest: &[u8]) -> Option<Vec<Section<'_>>> {
     let mut sections = Vec::new();
     while let Some((&kind, after)) = rest.split_first() {
@@ -124,14 +125,14 @@ fn sections(mut rest: &[u8]) -> Option<Vec<Section<'_>>> {
     Some(sections)
 }
 
-/// Nothing where the section claims too much.
+/// Returns `None` if a section claims too much.
 fn fits(section: &Section<'_>, geometry: &Geometry) -> Option<()> {
     let bytes = section.bytes;
     let within = |value: u64, most: u64| (value <= most).then_some(());
     match section.kind {
         HEADER => within(320, bytes.len() as u64),
         1 | 5 | 8 => values::fit(section.kind, bytes, geometry),
-        // The hierarchy: by deflate, by LZ4, by LZ4 twice with the length in between.
+        // Hierarchy: by deflate, by LZ4, by LZ4 twice with the length in between.
         4 => within(
             number(bytes, 0)?,
             (bytes.len() as u64).checked_mul(DEFLATE)?,
@@ -148,7 +149,7 @@ fn fits(section: &Section<'_>, geometry: &Geometry) -> Option<()> {
 }
 
 impl Geometry {
-    /// The bytes unpacked, how many signals, and for each its length.
+    /// Reads the unpacked size, the number of signals, and the length of each.
     fn read(bytes: &[u8]) -> Option<Self> {
         let unpacked = zlib(bytes.get(16..)?, number(bytes, 0)?)?;
         let count = number(bytes, 8)?;
@@ -158,7 +159,7 @@ impl Geometry {
             let (length, after) = varint(rest)?;
             rest = after;
             lengths.push(match u32::try_from(length).ok()? {
-                // A real number.
+                // Real number.
                 0 => 8,
                 u32::MAX => 0,
                 length => length,
@@ -172,7 +173,7 @@ impl Geometry {
 mod tests {
     use super::*;
 
-    /// True if a hierarchy of this kind holds what it claims, if `rest` is behind the claim.
+    /// True if a hierarchy of this kind holds the claimed size; `rest` follows the claim.
     fn holds(kind: u8, claim: u64, rest: &[u8]) -> bool {
         let bytes = [&claim.to_be_bytes(), rest].concat();
         let section = Section {

@@ -1,12 +1,12 @@
-//! A map to fill in.
+//! Map template.
 
 use super::pair::Pairing;
 use super::wave::Wave;
 use std::fmt::Write as _;
 use toml::Value;
 
-/// The skeleton of a map: the golden signals without partner as lines of `[signals]`, and what the
-/// other file has for them.
+/// Returns the skeleton of a map: the golden signals without partner as lines of `[signals]`, and
+/// the candidates in the other file.
 pub(super) fn skeleton(golden: &Wave, other: &Wave, clock: usize, pairing: &Pairing) -> String {
     let mut text = format!(
         "# Names of {} that stand for those of {}.\n",
@@ -17,7 +17,7 @@ pub(super) fn skeleton(golden: &Wave, other: &Wave, clock: usize, pairing: &Pair
         "# Fill in a name and take the # away. The end of a path will do if it is the only one.\n";
     text += "# What has no partner on purpose goes into ignore, a port out into leave.\n";
     text += "\nignore = []\nleave = []\n\n[signals]\n";
-    // Writing to a string does not fail.
+    // Writing to a string cannot fail.
     for &index in &pairing.without_partner {
         let variable = &golden.variables[index];
         let name = Value::from(variable.path.as_str());
@@ -43,7 +43,7 @@ pub(super) fn skeleton(golden: &Wave, other: &Wave, clock: usize, pairing: &Pair
     text
 }
 
-/// In a comment, which a line's end would end.
+/// Makes a name safe for a comment, which a line break would end.
 fn shown(name: &str) -> String {
     name.replace(char::is_control, " ")
 }

@@ -5,38 +5,38 @@ use super::wave::Wave;
 use crate::input::Fault;
 use std::ops::Range;
 
-/// The ticks of a file, counted from its start.
+/// Ticks of a file, counted from its start.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Ticks {
     rises: Vec<Rise>,
     pub count: u64,
-    /// The number of the file's first tick in its run.
+    /// Number of the file's first tick in its run.
     pub first: u64,
-    /// Ticks whose end is not in the dump, as it was switched off.
+    /// Ticks whose end is not in the dump, since it was switched off.
     pub off: Vec<Range<u64>>,
 }
 
-/// A rising edge of the clock.
+/// Rising edge of the clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Rise {
-    /// The index of its time.
+    /// Index of its time.
     at: u32,
-    /// The tick that begins with it.
+    /// Tick that begins with it.
     tick: u64,
 }
 
-/// A clock that is none.
+/// Reason why a clock is unusable.
 #[derive(Debug, PartialEq, Eq)]
 enum Unusable {
-    /// From the index of this time on it is x or z.
+    /// The clock is x or z from the time with this index on.
     Unknown(u32),
     Constant,
-    /// Nothing tells how many edges there are between these, in a time without a dump.
+    /// The number of edges between these indices is unknown: the dump is off in between.
     Uncounted(u32, u32),
 }
 
 impl Ticks {
-    /// The ticks by the clock of this variable, which must be loaded.
+    /// Returns the ticks by the clock in this variable, which must be loaded.
     pub fn of(wave: &Wave, clock: usize) -> Result<Self, Fault> {
         let changes = wave.changes(clock, 0, 1)?;
         let levels = levels(&changes);
@@ -68,11 +68,11 @@ impl Ticks {
 
     fn by(levels: &[(u32, Option<bool>)], times: &[u64], gaps: &[Gap]) -> Result<Self, Unusable> {
         let time = |at: u32| times.get(at as usize).copied().unwrap_or(0);
-        // The edges between two gaps.
+        // Edges between two gaps.
         let mut runs: Vec<Vec<u32>> = vec![Vec::new()];
         let mut before = None;
         let mut changed = false;
-        // The file begins with an x or z.
+        // True while the file has begun with an x or z.
         let mut unset = false;
         let mut gaps = gaps.iter().peekable();
         for (place, &(at, level)) in levels.iter().enumerate() {
@@ -80,7 +80,7 @@ impl Ticks {
             if levels.get(place + 1).is_some_and(|next| next.0 == at) {
                 continue;
             }
-            // Behind a gap the level is a first one again.
+            // After a gap the level is a first one again.
             while gaps
                 .next_if(|gap| gap.to.is_some_and(|to| to <= time(at)))
                 .is_some()
@@ -108,7 +108,7 @@ impl Ticks {
         }
         let ends_off = gaps.peek().is_some();
         let mut ticks = Ticks::join(&runs, time)?;
-        // The interval behind the last edge is a tick once the clock has fallen again.
+        // The interval after the last edge is a tick once the clock has fallen again.
         let whole = before == Some(false)
             && !ends_off
             && runs
@@ -118,7 +118,7 @@ impl Ticks {
         Ok(ticks)
     }
 
-    /// Numbers the edges; between two runs of them by the period of either.
+    /// Numbers the edges; the number between two runs follows from the period of either.
     fn join(runs: &[Vec<u32>], time: impl Fn(u32) -> u64) -> Result<Self, Unusable> {
         let mut ticks = Ticks {
             rises: Vec::new(),
@@ -137,7 +137,7 @@ impl Ticks {
                 if period == 0 || !between.is_multiple_of(period) {
                     return Err(Unusable::Uncounted(*last, *first));
                 }
-                // The tick that the first edge ends has its end in the dump.
+                // The end of the tick that the first edge ends is in the dump.
                 let end = ticks.count + between / period - 1;
                 if end > ticks.count {
                     ticks.off.push(ticks.count..end);
@@ -154,7 +154,7 @@ impl Ticks {
         Ok(ticks)
     }
 
-    /// When a tick of the file begins.
+    /// Returns the start time of a tick of the file.
     pub fn time(&self, wave: &Wave, tick: u64) -> u64 {
         let after = self.rises.partition_point(|rise| rise.tick <= tick);
         let rise = after.checked_sub(1).and_then(|place| self.rises.get(place));
@@ -162,14 +162,14 @@ impl Ticks {
         wave.times.get(index).copied().unwrap_or(0)
     }
 
-    /// What a flip-flop samples in each tick: the last value before the edge that ends it. Only
-    /// ticks with a change are in it.
+    /// Returns the value that a flip-flop samples in each tick: the last one before the edge that
+    /// ends it. Contains only ticks with a change.
     pub fn sample(&self, changes: &[(u32, Value)]) -> Vec<(u64, Value)> {
         let mut samples: Vec<(u64, Value)> = Vec::new();
         let mut tick = 0;
         let mut rises = self.rises.iter().peekable();
         for &(at, value) in changes {
-            // What changes with the edge belongs to the tick that begins with it.
+            // A change at the edge belongs to the tick that begins with it.
             while let Some(rise) = rises.next_if(|rise| rise.at <= at) {
                 tick = rise.tick;
             }
@@ -183,8 +183,8 @@ impl Ticks {
     }
 }
 
-/// The first tick of a dump of ours: tick n begins at n periods, with the clock high for half a
-/// period.
+/// Returns the first tick of a dump of this crate: tick n begins at n periods, with the clock high
+/// for half a period.
 fn first(wave: &Wave, levels: &[(u32, Option<bool>)]) -> u64 {
     let time = |at: u32| wave.times.get(at as usize).copied();
     let (Some((high, Some(true))), Some((low, Some(false)))) = (levels.first(), levels.get(1))
@@ -201,8 +201,8 @@ fn first(wave: &Wave, levels: &[(u32, Option<bool>)]) -> u64 {
     }
 }
 
-/// The variable of one bit that is called `name`, by its path or the end of its path. Clocks with the
-/// same edges are one.
+/// Returns the one-bit variable named `name`, by its path or the end of its path. Clocks with the
+/// same edges count as one.
 pub(super) fn clock(
     wave: &mut Wave,
     argument: &str,
@@ -244,7 +244,8 @@ fn levels(changes: &[(u32, Value)]) -> Vec<(u32, Option<bool>)> {
     changes.iter().map(level).collect()
 }
 
-/// The variables of one bit that may be meant, at least one; those of the same signal are one.
+/// Returns the one-bit variables that may be meant, at least one; those of the same signal count
+/// as one.
 fn candidates(
     wave: &Wave,
     argument: &str,
@@ -299,7 +300,7 @@ fn ends_in_any_case(path: &str, ending: &str) -> bool {
     end.is_some_and(|end| end.eq_ignore_ascii_case(ending))
 }
 
-/// The part of `window` that both files have, in ticks of the golden run.
+/// Returns the part of `window` that both files have, in ticks of the golden run.
 pub(super) fn common(golden: &Ticks, other: Range<i128>, window: &Range<u64>) -> Range<i128> {
     let first = i128::from(golden.first);
     let start = first.max(other.start).max(window.start.into());

@@ -2,7 +2,7 @@
 
 use super::wave::Wave;
 
-/// Units, coarsest first, and their femtoseconds.
+/// Units from the coarsest, and their size in femtoseconds.
 const UNITS: [(&str, u128); 6] = [
     ("s", 1_000_000_000_000_000),
     ("ms", 1_000_000_000_000),
@@ -12,7 +12,7 @@ const UNITS: [(&str, u128); 6] = [
     ("fs", 1),
 ];
 
-/// Times of two files in the coarsest unit in which both are whole.
+/// Formats times of two files in the coarsest unit in which both are whole.
 pub(super) fn times(one: (&Wave, u64), two: (&Wave, u64)) -> (String, String) {
     let both = one.0.femtoseconds(one.1).zip(two.0.femtoseconds(two.1));
     let Some((a, b)) = both else {
@@ -27,14 +27,14 @@ pub(super) fn times(one: (&Wave, u64), two: (&Wave, u64)) -> (String, String) {
 }
 
 impl Wave {
-    /// A time of the file in femtoseconds.
+    /// Returns a time of the file in femtoseconds.
     fn femtoseconds(&self, time: u64) -> Option<u128> {
         let (factor, unit) = self.unit?;
         let (_, size) = UNITS.into_iter().find(|one| one.0 == unit)?;
         Some(u128::from(time) * u128::from(factor) * size)
     }
 
-    /// A time of the file with its unit.
+    /// Formats a time of the file with its unit.
     pub fn time(&self, time: u64) -> String {
         match self.unit {
             Some((factor, unit)) => format!("{} {unit}", u128::from(time) * u128::from(factor)),

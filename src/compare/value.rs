@@ -1,14 +1,14 @@
 use wellen::BitVecRef;
 
-/// The widest signal that is compared, in bits.
+/// Greatest width of a signal that is compared, in bits.
 pub const WIDEST: u32 = 64;
 
 /// Up to 64 bits of 0, 1, x and z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Value {
-    /// The bits that are 1; of the unknown bits those that are z.
+    /// Bits that are 1; among the unknown bits, those that are z.
     ones: u64,
-    /// The bits that are x or z.
+    /// Bits that are x or z.
     unknown: u64,
 }
 
@@ -17,13 +17,13 @@ fn mask(width: u32) -> u64 {
 }
 
 impl Value {
-    /// A bit that is 1.
+    /// Single bit that is 1.
     pub const HIGH: Self = Value {
         ones: 1,
         unknown: 0,
     };
 
-    /// All bits x: nothing is known yet.
+    /// Returns a value with all bits x.
     pub fn unknown(width: u32) -> Self {
         Value {
             ones: 0,
@@ -31,12 +31,12 @@ impl Value {
         }
     }
 
-    /// `width` bits from bit `low` up.
+    /// Reads `width` bits from bit `low` up.
     pub fn read(bits: BitVecRef<'_>, low: u32, width: u32) -> Self {
         if let Some(bytes) = bits.be_bytes()
             && bytes.len() <= 8
         {
-            // The first byte may carry bits that are not of the value.
+            // The first byte may contain bits that do not belong to the value.
             let all = bytes
                 .iter()
                 .fold(0, |all, &byte| all << 8 | u64::from(byte));
@@ -50,7 +50,7 @@ impl Value {
             unknown: 0,
         };
         for bit in (low..low + width).rev() {
-            // A strength is no value: h is 1, l is 0.
+            // Strengths are ignored: h is 1, l is 0.
             let (one, unknown) = match bits.get_bit(bit).as_ascii() {
                 '0' | 'l' => (0, 0),
                 '1' | 'h' => (1, 0),
@@ -63,7 +63,7 @@ impl Value {
         value
     }
 
-    /// The known bits the other way round.
+    /// Inverts the known bits.
     pub fn inverted(self, width: u32) -> Self {
         Value {
             ones: self.ones ^ (mask(width) & !self.unknown),
@@ -75,7 +75,7 @@ impl Value {
         self.unknown == 0
     }
 
-    /// In a table: hexadecimal, binary where a bit is unknown.
+    /// Formats the value for a table: hexadecimal, or binary if a bit is unknown.
     pub fn cell(self, width: u32) -> String {
         if self.is_known() {
             let digits = width.div_ceil(4) as usize;
@@ -90,7 +90,7 @@ impl Value {
         (0..width).rev().map(bit).collect()
     }
 
-    /// By itself: with its base, and as a decimal number.
+    /// Formats the value alone: with its base, and in decimal.
     pub fn shown(self, width: u32) -> String {
         match (self.is_known(), width) {
             (_, 1) => self.cell(1),

@@ -13,62 +13,62 @@ use std::path::Path;
 use wellen::simple::Waveform;
 use wellen::{SignalRef, SignalValueRef, VarDirection, VarType};
 
-/// The largest file that is compared, in bytes: the reader takes several times as much memory.
+/// Greatest size of a file in bytes: the reader takes several times as much memory.
 pub(super) const LARGEST: u64 = 1 << 30;
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// A variable that has bits.
+/// Variable with bits.
 #[derive(Debug)]
 pub(super) struct Variable {
     pub path: String,
     pub width: u32,
-    /// Declared as `reg`.
+    /// True if it is declared as `reg`.
     pub register: bool,
-    /// An input: an FST tells. In a VCD of ours those of the outermost scope stand before its
-    /// registers.
+    /// True for an input: an FST has directions. In a VCD of this crate, inputs of the outermost
+    /// scope come before its registers.
     pub input: bool,
-    /// Variables of the same signal are aliases.
+    /// Signal; variables of the same signal are aliases.
     pub signal: SignalRef,
-    /// Numbers of its first and last bit, where it has a range.
+    /// Numbers of first and last bit, if it has a range.
     range: Option<(i64, i64)>,
 }
 
 impl Variable {
-    /// Where the bit of this number stands, counted from the lowest.
+    /// Returns the position of a bit by its number, counted from the lowest.
     pub fn place(&self, number: i64) -> Option<u32> {
         let (msb, lsb) = self.range.unwrap_or((i64::from(self.width) - 1, 0));
         let within = (msb.min(lsb)..=msb.max(lsb)).contains(&number);
         within.then_some(number.abs_diff(lsb) as u32)
     }
 
-    /// The range as it is written behind the name.
+    /// Returns the range as written after the name.
     pub fn range(&self) -> String {
         let (msb, lsb) = self.range.unwrap_or((i64::from(self.width) - 1, 0));
         format!("[{msb}:{lsb}]")
     }
 }
 
-/// A waveform file.
+/// Waveform file.
 #[derive(Debug)]
 pub(super) struct Wave {
     pub file: String,
-    /// In the order of the declarations.
+    /// Variables in declaration order.
     pub variables: Vec<Variable>,
-    /// Variables without bits: strings, reals, events.
+    /// Number of variables without bits: strings, reals, events.
     pub without_bits: usize,
     /// Times at which something changes.
     pub times: Vec<u64>,
-    /// Written by this crate, so that its times tell its ticks.
+    /// True if this crate wrote the file, so that its times give its ticks.
     pub ours: bool,
-    /// When its dump was switched off, in order.
+    /// Gaps in which the dump was switched off, in order.
     pub gaps: Vec<Gap>,
-    /// Ports out of its outermost circuit, where the file tells them.
+    /// Output ports of the outermost circuit, if the file names them.
     pub ports_out: Option<Vec<usize>>,
     pub(super) unit: Option<(u32, &'static str)>,
     by_path: HashMap<String, usize>,
     by_element: HashMap<String, Option<usize>>,
-    /// By the path in lower case, where case is ignored; none where there are two.
+    /// Variables by path in lower case, if case is ignored; `None` for an ambiguous path.
     by_folded: Option<HashMap<String, Option<usize>>>,
     waveform: Waveform,
 }
@@ -94,7 +94,7 @@ impl Wave {
                 scanned = scan::check(file, &bytes)?;
                 scanned.edits.apply(&mut bytes);
                 if bytes.last() != Some(&b'\n') {
-                    // The reader leaves out a last line without an end.
+                    // The reader drops a last line without an end.
                     bytes.push(b'\n');
                 }
                 "VCD"
@@ -115,7 +115,7 @@ impl Wave {
                 "FST"
             }
         };
-        // From memory, not by name: by name the reader would map the file, which may change.
+        // Read from memory: by name the reader would map the file, which may change.
         let waveform = match catch(|| wellen::simple::read_from_reader(Cursor::new(bytes))) {
             Some(Ok(waveform)) => waveform,
             Some(Err(error)) => {
@@ -214,7 +214,7 @@ impl Wave {
         Ok(wave)
     }
 
-    /// The variables that a comment of the file names.
+    /// Returns the variables that a comment of the file names.
     fn named_ports(&self, paths: &[String]) -> Result<Vec<usize>, Fault> {
         let find = |path: &String| {
             self.find(path).ok_or_else(|| {
@@ -226,8 +226,8 @@ impl Wave {
         paths.iter().map(find).collect()
     }
 
-    /// Those outputs that are in no scope around which another one has some; none where there is no
-    /// output. This crate gives the direction to no others.
+    /// Returns the outputs that are not inside another scope with outputs; `None` if there is no
+    /// output. This crate gives a direction to no others.
     fn outermost(&self, outputs: Vec<usize>) -> Option<Vec<usize>> {
         let scope = |index: usize| {
             let path = &self.variables[index].path;
@@ -243,7 +243,7 @@ impl Wave {
         (!ports.is_empty()).then_some(ports)
     }
 
-    /// The variable of this path; the words of a memory by either kind of name.
+    /// Returns the variable with this path; words of a memory have two forms.
     pub fn find(&self, path: &str) -> Option<usize> {
         let exact = self.by_path.get(path).copied();
         let element = || {
@@ -257,7 +257,7 @@ impl Wave {
         exact.or_else(element).or_else(folded)
     }
 
-    /// Finds signals by names in another case too.
+    /// Ignores case when signals are found by name from here on.
     pub fn fold_case(&mut self) {
         self.by_folded = Some(HashMap::new());
         let mut by_folded: HashMap<_, Option<usize>> = HashMap::new();
@@ -268,13 +268,13 @@ impl Wave {
         self.by_folded = Some(by_folded);
     }
 
-    /// True if names in another case are found.
+    /// True if case is ignored.
     pub fn folds(&self) -> bool {
         self.by_folded.is_some()
     }
 
-    /// A path as it is looked up: words of memories as elements, and all in lower case where case
-    /// is ignored.
+    /// Returns the lookup key of a path: words of memories as elements, and lower case if case is
+    /// ignored.
     pub fn key(&self, path: &str) -> String {
         let element = names::element(path);
         match self.folds() {
@@ -283,7 +283,7 @@ impl Wave {
         }
     }
 
-    /// Takes the second variable for an alias of the first.
+    /// Makes the second variable an alias of the first.
     pub fn join(&mut self, first: usize, second: usize) {
         let (kept, gone) = (self.variables[first].signal, self.variables[second].signal);
         for variable in &mut self.variables {
@@ -293,7 +293,7 @@ impl Wave {
         }
     }
 
-    /// Whether there is something below this scope, which may be a memory.
+    /// True if a scope, which may be a memory, contains anything.
     pub fn has_scope(&self, scope: &str) -> bool {
         let below = |path: &str| {
             let rest = path.strip_prefix(scope);
@@ -302,7 +302,7 @@ impl Wave {
         self.variables.iter().any(|variable| below(&variable.path))
     }
 
-    /// The scopes there are, for messages.
+    /// Lists the scopes for messages.
     pub fn scopes(&self) -> String {
         let mut scopes = Vec::new();
         for variable in &self.variables {
@@ -320,7 +320,7 @@ impl Wave {
         listed(&scopes)
     }
 
-    /// Reads the values of these variables from the file.
+    /// Loads the values of these variables from the file.
     pub fn load(&mut self, variables: impl IntoIterator<Item = usize>) -> Result<(), Fault> {
         let mut signals: Vec<_> = variables
             .into_iter()
@@ -337,8 +337,8 @@ impl Wave {
         Fault::new(&self.file, 0, "file", problem, "a complete file")
     }
 
-    /// The changes of a loaded variable: indices of [`times`](Wave::times), in order, and values of
-    /// `width` bits from bit `low` up.
+    /// Returns the changes of a loaded variable: indices into [`times`](Wave::times), in order,
+    /// with values of `width` bits from bit `low` up.
     pub fn changes(
         &self,
         variable: usize,

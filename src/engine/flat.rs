@@ -1,54 +1,54 @@
 use std::fmt;
 
-/// A node of a [`Flat`] netlist: an index into [`Flat::nodes`].
+/// Node of a [`Flat`] netlist: an index into [`Flat::nodes`].
 pub type Id = u32;
 
-/// A whole circuit as one netlist, its instances taken apart.
+/// Whole circuit as one netlist without hierarchy.
 ///
-/// Every value is held in the low bits of a word of 64, with zeros above.
+/// Every value is in the low bits of a 64-bit word, with zeros above.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Flat {
-    /// The nodes, each behind those that it is computed from.
+    /// Nodes; each comes after its operands.
     pub nodes: Vec<Node>,
-    /// Ports in: their widths.
+    /// Widths of the input ports in bits.
     pub inputs: Vec<u8>,
     /// Flip-flops.
     pub registers: Vec<Register>,
     /// Memories and ROMs.
     pub memories: Vec<Memory>,
-    /// Where the leaves of a walk over the circuit stand, in its order.
+    /// Places of the leaves of a walk over the circuit, in its order.
     pub leaves: Vec<Place>,
-    /// How many leaves are ports in, and how many are those or registers and memories.
+    /// End of the input ports, and end of the registers and memories, among the leaves.
     pub parts: [usize; 2],
-    /// What holds of it, each a bit; step properties with the registers after the edge.
+    /// Properties, one bit each; step properties are stated with the registers after the edge.
     pub properties: Vec<Id>,
-    /// The circuits, the outermost first.
+    /// Circuits; the outermost is first.
     pub instances: Vec<Instance>,
 }
 
-/// A node.
+/// Node of a netlist.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Node {
-    /// What it computes.
+    /// Operation.
     pub op: Op,
     /// Width in bits, 1 to 64.
     pub width: u8,
-    /// The instance it was written in.
+    /// Instance that contains the node.
     pub instance: u32,
 }
 
-/// What a node computes. Words are unsigned where nothing else is said.
+/// Operation of a node. Words are unsigned unless stated otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Op {
-    /// A number.
+    /// Constant.
     Constant(u64),
-    /// A port in.
+    /// Input port.
     Input(u32),
-    /// A flip-flop.
+    /// Flip-flop.
     Register(u32),
-    /// All bits inverted.
+    /// Inversion of all bits.
     Not(Id),
-    /// The two's complement.
+    /// Two's complement negation.
     Negate(Id),
     /// Sum modulo 2^N.
     Add(Id, Id),
@@ -56,40 +56,40 @@ pub enum Op {
     Subtract(Id, Id),
     /// Product modulo 2^N.
     Multiply(Id, Id),
-    /// Bit by bit.
+    /// Bitwise and.
     And(Id, Id),
-    /// Bit by bit.
+    /// Bitwise or.
     Or(Id, Id),
-    /// Bit by bit.
+    /// Bitwise exclusive or.
     Xor(Id, Id),
-    /// One bit: both are the same.
+    /// One bit: high if both are equal.
     Equal(Id, Id),
-    /// One bit: the first is less.
+    /// One bit: high if the first is less.
     Below(Id, Id),
-    /// One bit: the first is less, both in two's complement.
+    /// One bit: high if the first is less in two's complement.
     BelowSigned(Id, Id),
-    /// The second where the first is high, else the third.
+    /// Second operand if the first is high, else the third.
     Mux(Id, Id, Id),
-    /// Moved up by a number of bits.
+    /// Left shift by a fixed number of bits.
     ShiftLeft(Id, u8),
-    /// Moved down by a number of bits.
+    /// Right shift by a fixed number of bits.
     ShiftRight(Id, u8),
-    /// Moved down by a number of bits, the sign from above.
+    /// Arithmetic right shift by a fixed number of bits.
     ShiftRightSigned(Id, u8),
-    /// As many bits as the node has, from this one up.
+    /// Bits from this index up; the node's width is their number.
     Slice(Id, u8),
-    /// More bits, zeros above.
+    /// Zero extension.
     Extend(Id),
-    /// More bits, the sign above.
+    /// Sign extension.
     ExtendSigned(Id),
-    /// The first above the second.
+    /// Concatenation, the first operand in the high bits.
     Join(Id, Id),
-    /// The word of a memory at an address, the stage of a shift register; zero past its end.
+    /// Word of a memory at an address, or stage of a shift register; zero past its end.
     Read(u32, Id),
 }
 
 impl Op {
-    /// The nodes it is computed from.
+    /// Returns the operands of the node.
     pub fn operands(self) -> impl Iterator<Item = Id> + Clone {
         let operands = match self {
             Op::Constant(_) | Op::Input(_) | Op::Register(_) => [None; 3],
@@ -117,7 +117,7 @@ impl Op {
         operands.into_iter().flatten()
     }
 
-    /// The same of other nodes.
+    /// Returns the operation with each operand mapped by `to`.
     pub fn map(self, mut to: impl FnMut(Id) -> Id) -> Op {
         match self {
             Op::Constant(_) | Op::Input(_) | Op::Register(_) => self,
@@ -145,54 +145,54 @@ impl Op {
     }
 }
 
-/// A flip-flop.
+/// Flip-flop.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Register {
     /// Width in bits.
     pub width: u8,
-    /// What it holds at power-on.
+    /// Power-on value.
     pub power_on: u64,
-    /// What it takes at an edge.
+    /// Node whose value it takes at an edge.
     pub next: Id,
-    /// The instance it belongs to.
+    /// Instance that contains the register.
     pub instance: u32,
 }
 
-/// A memory.
+/// Memory.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Memory {
     /// Width of a word in bits.
     pub width: u8,
-    /// What it holds at power-on, all words.
+    /// Words at power-on.
     pub contents: Vec<u64>,
-    /// How it is written.
+    /// Write port.
     pub port: Port,
-    /// The instance it belongs to.
+    /// Instance that contains the memory.
     pub instance: u32,
 }
 
-/// How a memory is written at an edge; an address names no more words than there are.
+/// Write port of a memory; an address has no effect past the last word.
 pub type Port = crate::hdl::netlist::Port<Id>;
 
-/// Where a leaf of a walk stands.
+/// Place of a leaf of a walk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
-    /// A port in.
+    /// Input port.
     Input(u32),
-    /// A flip-flop.
+    /// Flip-flop.
     Register(u32),
-    /// A net.
+    /// Net.
     Node(Id),
-    /// A word of a memory, or a stage.
+    /// Word of a memory, or stage of a shift register.
     Word(u32, u32),
 }
 
-/// A circuit in the circuit.
+/// Circuit inside the outermost circuit.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Instance {
-    /// The scopes from the outermost circuit on, which has none.
+    /// Scopes below the outermost circuit, which has none.
     pub path: Vec<String>,
-    /// Its circuit.
+    /// Name of its circuit.
     pub circuit: String,
 }
 
@@ -202,58 +202,58 @@ impl fmt::Debug for Instance {
     }
 }
 
-/// What cannot be run.
+/// Reason why a circuit cannot be run.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
 pub enum EngineError {
-    /// Something is wrong with the circuit.
+    /// The circuit has mistakes.
     #[error(transparent)]
     Circuit(#[from] crate::hdl::Wrong),
-    /// A node is computed from itself.
+    /// A node depends on itself.
     #[error("{module}: node {node} is computed from nodes that are not settled before it")]
     Circle {
-        /// The module.
+        /// Module.
         module: String,
-        /// The node.
+        /// Node.
         node: usize,
     },
-    /// A word is too wide, or has no bits.
+    /// A word has no bits, or more than 64.
     #[error("{module}: {what} has {width} bits; 1 to 64 are allowed")]
     Width {
-        /// The module.
+        /// Module.
         module: String,
         /// Node, signal or memory.
         what: String,
-        /// Its width.
+        /// Width in bits.
         width: usize,
     },
-    /// Nothing drives it.
+    /// A signal has no driver.
     #[error("{module}: {what} is driven by nothing")]
     Unsettled {
-        /// The module.
+        /// Module.
         module: String,
         /// Register, net, parameter or part.
         what: String,
     },
-    /// There is no module.
+    /// The design has no module.
     #[error("a design without modules")]
     Empty,
 }
 
 crate::hdl::debug_as_display!(EngineError);
 
-/// All bits of a word of so many.
+/// Returns a mask of the low `width` bits.
 #[inline]
 pub(crate) const fn mask(width: u8) -> u64 {
     u64::MAX >> (64 - width as u32)
 }
 
 impl Flat {
-    /// Kind and width of a node.
+    /// Returns a node.
     pub fn node(&self, id: Id) -> Node {
         self.nodes[id as usize]
     }
 
-    /// Width of a leaf in bits.
+    /// Returns the width of a leaf in bits.
     pub fn width(&self, leaf: usize) -> u8 {
         match self.leaves[leaf] {
             Place::Input(input) => self.inputs[input as usize],
@@ -263,7 +263,7 @@ impl Flat {
         }
     }
 
-    /// The leaves of a part of the circuit.
+    /// Returns the leaves of a part of the circuit.
     #[inline]
     pub fn part(&self, role: crate::hdl::Role) -> std::ops::Range<usize> {
         let [inputs, registers] = self.parts;
@@ -274,7 +274,7 @@ impl Flat {
         }
     }
 
-    /// The nodes that registers, memories, leaves and properties take.
+    /// Returns the nodes that registers, memories, leaves and properties take.
     pub fn roots(&self) -> impl Iterator<Item = Id> + '_ {
         let registers = self.registers.iter().map(|register| register.next);
         let memories = self
@@ -291,8 +291,8 @@ impl Flat {
             .chain(self.properties.iter().copied())
     }
 
-    /// Makes it anew, node by node: `make` gives the new node of each, of which operands are new
-    /// already.
+    /// Rebuilds the netlist node by node: `make` returns the new node for each, whose operands are
+    /// new already.
     pub(super) fn rebuild(&self, mut make: impl FnMut(&mut Vec<Node>, Node) -> Id) -> Flat {
         let mut nodes = Vec::with_capacity(self.nodes.len());
         let mut map: Vec<Id> = Vec::with_capacity(self.nodes.len());

@@ -1,4 +1,4 @@
-//! A design of modules becomes one netlist.
+//! Flattening: turns a design of modules into one netlist.
 
 use super::flat::{EngineError, Flat, Id, Instance, Memory, Node, Op, Place, Port, Register, mask};
 use crate::hdl::netlist::{self, Design, Module, Operator, Value};
@@ -6,12 +6,12 @@ use crate::hdl::{Kind, Role, Shape};
 use std::collections::HashMap;
 
 impl Flat {
-    /// The netlist of a design.
+    /// Flattens a design.
     ///
     /// # Errors
-    /// The design is not what [`elaborate`](crate::hdl::elaborate()) makes: a node or an
-    /// instance is computed from itself, a word has no bits or more than 64, a register or net is
-    /// driven by nothing.
+    /// Returns an error if the design is not one that [`elaborate`](crate::hdl::elaborate())
+    /// makes: a node or an instance depends on itself, a word has no bits or more than 64, a
+    /// register or net has no driver.
     pub fn of(design: &Design) -> Result<Flat, EngineError> {
         let top = design
             .modules
@@ -51,17 +51,18 @@ struct Flattening<'d> {
     parts: Vec<Part<'d>>,
 }
 
-/// An instance under way.
+/// Instance under construction.
 struct Part<'d> {
     module: &'d Module,
     instance: u32,
-    /// Its registers and memories, by signal and memory; none that belong to instances in it.
+    /// Its own registers and memories, by signal and memory index; those of inner instances are
+    /// absent.
     registers: Vec<Option<u32>>,
     memories: Vec<Option<u32>>,
     children: Vec<usize>,
-    /// What drives its ports in, in their order.
+    /// Drivers of its input ports, in order.
     inputs: Vec<Id>,
-    /// Its nodes, as far as they are made.
+    /// Nodes made so far.
     map: Vec<Id>,
     state: State,
 }
@@ -92,7 +93,7 @@ fn width(module: &Module, what: impl Into<String>, width: usize) -> Result<u8, E
 }
 
 impl<'d> Flattening<'d> {
-    /// Registers and memories of a module and of all within it.
+    /// Allocates registers and memories of a module and of all modules inside it.
     fn allocate(&mut self, module: usize, path: Vec<String>) -> Result<usize, EngineError> {
         let module = self.design.modules.get(module).ok_or(EngineError::Empty)?;
         let instance = self.flat.instances.len() as u32;
@@ -164,7 +165,7 @@ impl<'d> Flattening<'d> {
         self.flat.nodes.len() as Id - 1
     }
 
-    /// The ports in of the whole.
+    /// Returns the input ports of the outermost circuit.
     fn ports(&mut self) -> Vec<Id> {
         let module = self.parts[0].module;
         let inputs = module
@@ -173,7 +174,7 @@ impl<'d> Flattening<'d> {
             .filter(|signal| signal.role == Role::Input && signal.owner.is_none());
         inputs
             .map(|signal| {
-                // Checked with the registers.
+                // Already checked with the registers.
                 let width = signal.shape.width as u8;
                 self.flat.inputs.push(width);
                 self.add(0, Op::Input(self.flat.inputs.len() as u32 - 1), width)
@@ -181,7 +182,7 @@ impl<'d> Flattening<'d> {
             .collect()
     }
 
-    /// The register that a signal of a part is, of it or of one within it.
+    /// Returns the register of a signal of a part, or of an instance inside it.
     fn register(&self, mut part: usize, mut signal: usize) -> Option<u32> {
         loop {
             let here = &self.parts[part];
@@ -195,7 +196,7 @@ impl<'d> Flattening<'d> {
         }
     }
 
-    /// Makes the nodes of a part whose ports in are known.
+    /// Makes the nodes of a part whose input ports are known.
     fn settle(&mut self, part: usize) -> Result<(), EngineError> {
         let module = self.parts[part].module;
         self.parts[part].state = State::Settling;
@@ -217,7 +218,7 @@ impl<'d> Flattening<'d> {
         self.properties(part)
     }
 
-    /// Settles the instance within, if it is not.
+    /// Settles an inner instance unless it is settled.
     fn child(&mut self, part: usize, child: usize) -> Result<usize, EngineError> {
         let module = self.parts[part].module;
         let missing = || unsettled(module, &format!("part {child}"));
@@ -239,7 +240,7 @@ impl<'d> Flattening<'d> {
         Ok(place)
     }
 
-    /// The node that one of a part has become.
+    /// Returns the flat node of a part's node.
     fn made(&self, part: usize, id: netlist::Id) -> Result<Id, EngineError> {
         let part = &self.parts[part];
         part.map
@@ -283,7 +284,7 @@ impl<'d> Flattening<'d> {
                 let child = self.child(part, instance)?;
                 return self.net(child, leaf);
             }
-            // Of properties alone, which are made by themselves.
+            // Used in properties only, which are made separately.
             Node::Past(a) => return of(a),
             Node::Read(memory, a) => {
                 let missing = || unsettled(module, &format!("memory {memory}"));
@@ -295,7 +296,7 @@ impl<'d> Flattening<'d> {
                 operation(node, shape, before, of)?
             }
         };
-        // What changes no bit is the same node.
+        // An operation that changes no bit is the operand itself.
         match op {
             Op::Slice(a, 0) if self.flat.node(a).width == width => Ok(a),
             Op::Extend(a) | Op::ExtendSigned(a) if self.flat.node(a).width == width => Ok(a),
@@ -303,7 +304,7 @@ impl<'d> Flattening<'d> {
         }
     }
 
-    /// The node that a leaf of the walk over the nets of a settled part is.
+    /// Returns the node of a leaf of the walk over the nets of a settled part.
     fn net(&self, part: usize, leaf: usize) -> Result<Id, EngineError> {
         let module = self.parts[part].module;
         let node = module.net_node(leaf);
@@ -313,7 +314,7 @@ impl<'d> Flattening<'d> {
         )
     }
 
-    /// What registers and memories of a settled part take at an edge.
+    /// Connects registers and memories of a settled part to their values after the edge.
     fn drive(&mut self, part: usize) -> Result<(), EngineError> {
         let module = self.parts[part].module;
         for (index, signal) in module.signals.iter().enumerate() {
@@ -354,8 +355,8 @@ impl<'d> Flattening<'d> {
         Ok(())
     }
 
-    /// The properties of the whole, in terms of the tick before the edge: what a register holds
-    /// after it is what it takes.
+    /// Adds the properties of the outermost circuit, in terms of the tick before the edge: a
+    /// register after the edge is the node that it takes.
     fn properties(&mut self, part: usize) -> Result<(), EngineError> {
         let module = self.parts[part].module;
         if part != 0 || module.assertions.is_empty() {
@@ -372,7 +373,7 @@ impl<'d> Flattening<'d> {
         Ok(())
     }
 
-    /// A node of a step property: one that looks at registers after the edge.
+    /// Makes a node of a step property, which reads registers after the edge.
     fn after(&mut self, after: &mut [Option<Id>], id: netlist::Id) -> Result<Id, EngineError> {
         use netlist::Node;
         if let Some(made) = after.get(id).copied().flatten() {
@@ -422,7 +423,7 @@ impl<'d> Flattening<'d> {
         Ok(made)
     }
 
-    /// Where the leaves of a walk over the whole stand.
+    /// Sets the places of the leaves of a walk over the outermost circuit.
     fn leaves(&mut self, whole: usize) -> Result<(), EngineError> {
         let module = self.parts[whole].module;
         let inputs = (0..self.flat.inputs.len() as u32).map(Place::Input);
@@ -461,7 +462,7 @@ impl<'d> Flattening<'d> {
         Ok(())
     }
 
-    /// The memory that one of a part is, of it or of one within it: those within come in the order
+    /// Returns the memory of a part, or of an instance inside it; inner memories come in the order
     /// of the registers.
     fn memory(&self, part: usize, memory: usize) -> Option<u32> {
         let here = &self.parts[part];
@@ -475,7 +476,7 @@ impl<'d> Flattening<'d> {
     }
 }
 
-/// A node that is computed from others in one way only.
+/// Returns the operation of a node that depends on its operands only.
 fn operation(
     node: netlist::Node,
     shape: Shape,
@@ -514,7 +515,7 @@ fn operation(
         Node::Join(a, b) => Op::Join(of(a)?, of(b)?),
         Node::Cast(a) | Node::Past(a) => Op::Slice(of(a)?, 0),
         Node::Constant(bits) => Op::Constant(bits),
-        // The rest is made by who knows the parts.
+        // Other nodes need the parts, and are made there.
         Node::Parameter(_) | Node::Signal(_) | Node::Port { .. } | Node::Read(..) => {
             Op::Constant(0)
         }

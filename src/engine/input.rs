@@ -1,36 +1,36 @@
-//! Words that ports in do not take.
+//! Errors of words that do not fit input ports.
 
-/// Why a port in cannot be set.
+/// Reason why an input port cannot be set.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
 pub enum InputError {
     /// There is no such port.
     #[error("port in {port} does not exist; the circuit has {ports}, counted from 0")]
     Port {
-        /// Number that was asked for.
+        /// Requested number.
         port: usize,
-        /// Number of ports in.
+        /// Number of input ports.
         ports: usize,
     },
-    /// The number of words is not that of the ports, for instance because an array of a record has
-    /// another length.
+    /// The number of words differs from the number of ports, for instance because an array of a
+    /// record has another length.
     #[error("{words} words for {ports} ports in")]
     Count {
         /// Number of words given.
         words: usize,
-        /// Number of ports in.
+        /// Number of input ports.
         ports: usize,
     },
     /// The value does not fit the port.
     #[error("port in {port}: {value} does not fit; allowed are {least} to {greatest}")]
     Range {
-        /// Name of the port below the circuit, or its number where an [`Engine`](super::Engine)
-        /// is set directly.
+        /// Name of the port below the circuit, or its number if an [`Engine`](super::Engine) is
+        /// set directly.
         port: String,
-        /// The value.
+        /// Value given.
         value: i128,
-        /// Least value allowed.
+        /// Least allowed value.
         least: i128,
-        /// Greatest value allowed.
+        /// Greatest allowed value.
         greatest: i128,
     },
 }
@@ -38,7 +38,7 @@ pub enum InputError {
 crate::hdl::debug_as_display!(InputError);
 
 impl InputError {
-    /// The bits of a word of `width` bits are refused.
+    /// Returns the error for a word that is wider than a port of `width` bits.
     pub(crate) fn bits(port: String, word: u64, width: usize) -> Self {
         InputError::Range {
             port,

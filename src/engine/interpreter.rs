@@ -1,19 +1,19 @@
-//! The reference: it goes through the blocks of a plan one by one, and a block step by step.
+//! Reference backend: runs a plan block by block, and a block step by step.
 
 use super::flat::mask;
 use super::layout::{Layout, Slot};
 use super::plan::{Block, Code, Plan, PlannedMemory, Step, Write};
 use super::value::signed;
 
-/// How often each block has run, for whoever wants to know.
+/// Number of runs of each block.
 pub type Counts = Vec<u64>;
 
-/// Settles the nets of a tick: runs the blocks that something woke.
+/// Settles the nets of a tick: runs the woken blocks.
 pub fn settle(plan: &Plan, slab: &mut [u64], counts: &mut Counts) {
     let settling = plan.settling;
     for word in 0..settling.div_ceil(64) {
         let dirty = plan.layout.dirty as usize + word;
-        // A block wakes later ones only.
+        // A block wakes only later ones.
         while slab[dirty] != 0 {
             let place = word * 64 + slab[dirty].trailing_zeros() as usize;
             slab[dirty] &= slab[dirty] - 1;
@@ -27,7 +27,7 @@ pub fn settle(plan: &Plan, slab: &mut [u64], counts: &mut Counts) {
 pub fn edge(plan: &Plan, slab: &mut [u64], counts: &mut Counts) {
     let first = plan.settling.div_ceil(64);
     let words = plan.layout.block_words as usize;
-    // Whom an edge wakes runs after it.
+    // Blocks woken by an edge run after it.
     let mut due = Vec::with_capacity(words - first.min(words));
     for word in first..words {
         let dirty = plan.layout.dirty as usize + word;
@@ -59,17 +59,17 @@ pub fn edge(plan: &Plan, slab: &mut [u64], counts: &mut Counts) {
     }
 }
 
-/// Puts a word in its place, and tells its readers if it is another one.
+/// Stores a word in its slot; if it differs from the old one, wakes its readers.
 #[inline]
 pub fn put(layout: &Layout, slab: &mut [u64], slot: Slot, value: u64) {
     let old = std::mem::replace(&mut slab[slot as usize], value);
     if old != value {
-        tell(layout, slab, slot);
+        wake_readers(layout, slab, slot);
     }
 }
 
-/// Tells the readers of a word that it has changed.
-fn tell(layout: &Layout, slab: &mut [u64], slot: Slot) {
+/// Wakes the readers of a slot and marks it as changed.
+fn wake_readers(layout: &Layout, slab: &mut [u64], slot: Slot) {
     for &(word, bits) in &layout.readers[slot as usize] {
         slab[word as usize] |= bits;
     }
@@ -124,7 +124,7 @@ fn write(plan: &Plan, place: usize, write: &Write, slab: &mut [u64]) {
             let before = slab[head as usize].checked_sub(1);
             let head_word = before.unwrap_or(u64::from(memory.words).saturating_sub(1));
             slab[head as usize] = head_word;
-            // It goes on shifting though nothing changes.
+            // Shifting continues even if no operand changes.
             let bit = plan.bit(place);
             slab[plan.layout.dirty as usize + bit / 64] |= 1 << (bit % 64);
             head_word
@@ -133,20 +133,20 @@ fn write(plan: &Plan, place: usize, write: &Write, slab: &mut [u64]) {
     };
     if word < u64::from(memory.words) {
         let old = std::mem::replace(&mut slab[memory.first as usize + word as usize], data);
-        // A stage that stays as it is still moves all others.
+        // A stage that keeps its word still moves all others.
         if old == data && memory.head.is_none() {
             return;
         }
         slab[memory.written as usize] = word;
         slab[memory.mark as usize] = slab[memory.mark as usize].wrapping_add(1);
-        tell(&plan.layout, slab, memory.mark);
+        wake_readers(&plan.layout, slab, memory.mark);
         for bit in &memory.readers {
             slab[(plan.layout.dirty + bit / 64) as usize] |= 1 << (bit % 64);
         }
     }
 }
 
-/// The word of a memory at an address, or the stage of a shift register.
+/// Returns the word of a memory at an address, or the stage of a shift register.
 #[inline]
 pub fn read(memory: &PlannedMemory, slab: &[u64], address: u64) -> u64 {
     if address >= u64::from(memory.words) {
@@ -168,7 +168,7 @@ fn steps(plan: &Plan, block: &Block, slab: &mut [u64]) {
     }
 }
 
-/// What a step makes of its operands.
+/// Returns the result of a step.
 #[inline]
 fn value(plan: &Plan, step: &Step, slab: &[u64]) -> u64 {
     let a = slab[step.a as usize];

@@ -1,75 +1,75 @@
-//! Where everything of a plan stands: one slab of words.
+//! Memory layout of a plan: one slab of words.
 
-/// A place in the slab.
+/// Index of a word in the slab.
 pub type Slot = u32;
 
-/// The slab: bits that say which blocks are to run, then ports in, registers, nets, memories.
+/// Layout of the slab: dirty bits of the blocks, then input ports, registers, nets, memories.
 #[derive(Debug, Clone, Default)]
 pub struct Layout {
-    /// How many words it has.
+    /// Number of words.
     pub words: Slot,
-    /// High where a watched word has changed.
+    /// Word that is not 0 if a watched word has changed.
     pub event: Slot,
-    /// A bit for each block that is to run.
+    /// First word with one bit per block that is to run.
     pub dirty: Slot,
-    /// A bit for each block whose shadows are to be taken over, as in `dirty`.
+    /// First word with one bit per block whose shadows are to be committed; same order as `dirty`.
     pub commit: Slot,
-    /// A bit for each watched word that has changed.
+    /// First word with one bit per watched word that has changed.
     pub changed: Slot,
-    /// The words of `dirty` and of `commit`.
+    /// Number of words of `dirty`, and of `commit`.
     pub block_words: Slot,
-    /// The words of `changed`.
+    /// Number of words of `changed`.
     pub changed_words: Slot,
-    /// Ports in.
+    /// Input ports.
     pub inputs: Vec<Slot>,
-    /// The bit of each block.
+    /// Bit of each block.
     pub bits: Vec<u32>,
-    /// Where the leaves of a walk are.
+    /// Spots of the leaves of a walk.
     pub leaves: Vec<Spot>,
-    /// Where the properties are.
+    /// Spots of the properties.
     pub properties: Vec<Spot>,
-    /// What is watched, in the order of the bits of `changed`.
+    /// Watched words, in the order of the bits of `changed`.
     pub watched: Vec<Watched>,
-    /// By slot: the words of `dirty` and what is to be set in them where it changes.
+    /// By slot: words of `dirty`, and the bits to set in them when the slot changes.
     pub readers: Vec<Vec<(Slot, u64)>>,
-    /// By slot: what is to be set where it changes.
+    /// By slot: bit of `changed` to set when the slot changes.
     pub changes: Vec<Option<Change>>,
-    /// What stands in it at power-on, where that is not 0.
+    /// Slots that are not 0 at power-on, with their words.
     pub initial: Vec<(Slot, u64)>,
-    /// What stands in it all the time: these too are in `initial`.
+    /// Slots that are constant, with their words; also in `initial`.
     pub constants: Vec<(Slot, u64)>,
 }
 
-/// A watched word, or the mark of a memory.
+/// Watched word, or write mark of a memory.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Watched {
-    /// Where it is.
+    /// Slot of the word.
     pub slot: Slot,
-    /// The leaves that show it; of a memory all its words.
+    /// Leaves that show the word; for a memory, all its words.
     pub leaves: Vec<u32>,
-    /// The memory whose mark it is.
+    /// Memory to which the mark belongs.
     pub memory: Option<u32>,
 }
 
-/// A bit of `changed`.
+/// Bit of `changed`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Change {
-    /// The word.
+    /// Word of the slab.
     pub word: Slot,
-    /// The bit in it.
+    /// Mask of the bit.
     pub mask: u64,
 }
 
-/// Where a leaf is.
+/// Spot of a leaf.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spot {
-    /// In the slab.
+    /// Word of the slab.
     Slot(Slot),
-    /// It is always this.
+    /// Constant.
     Constant(u64),
-    /// A stage of a shift register.
+    /// Stage of a shift register: memory and stage.
     Stage(u32, u32),
-    /// Nobody asked for it.
+    /// Not computed, since nothing requested it.
     Gone,
 }
 
@@ -85,13 +85,13 @@ impl Layout {
         layout
     }
 
-    /// So many more words.
+    /// Allocates `words` words; returns the first.
     pub(super) fn take(&mut self, words: u32) -> Slot {
         self.words += words;
         self.words - words
     }
 
-    /// A slab at power-on: every block is to run.
+    /// Returns a slab at power-on, with every block woken.
     pub fn power_on(&self) -> Vec<u64> {
         let mut slab = vec![0; self.words as usize];
         for &(slot, word) in &self.initial {
@@ -101,7 +101,7 @@ impl Layout {
         slab
     }
 
-    /// Every block is to run.
+    /// Wakes every block.
     pub fn wake(&self, slab: &mut [u64]) {
         for bit in &self.bits {
             slab[(self.dirty + bit / 64) as usize] |= 1 << (bit % 64);

@@ -1,4 +1,4 @@
-//! How a circuit runs: its netlist, made to run when it is to.
+//! Execution of circuits: a netlist is optimised, planned, and interpreted or compiled.
 
 #[cfg(feature = "jit")]
 #[allow(
@@ -11,10 +11,10 @@ mod flatten;
 mod input;
 mod interpreter;
 mod layout;
-mod lines;
 pub(crate) mod passes;
 mod plan;
 mod played;
+mod prediction;
 mod program;
 #[cfg(test)]
 mod random;

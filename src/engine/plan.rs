@@ -1,4 +1,4 @@
-//! How a netlist is run: in which blocks, in which order, and where everything stands.
+//! Execution plan of a netlist: its blocks, their order, and the memory layout.
 
 mod blocks;
 mod levels;
@@ -10,68 +10,68 @@ use super::layout::{Layout, Slot};
 use levels::Levels;
 use planning::Planning;
 
-/// A netlist that is planned.
+/// Planned netlist.
 ///
-/// Its nodes are in blocks: the nodes of an instance that can be computed one after the other once
-/// the blocks before are settled. Blocks that settle nets come first, then those that make the edge.
-/// A block runs where something that it reads has changed since it last ran.
+/// Nodes are grouped into blocks: nodes of one instance that can be computed in sequence once the
+/// blocks before are settled. Blocks that settle nets come first, then those that make the edge. A
+/// block runs if something that it reads has changed since its last run.
 #[derive(Debug, Clone)]
 pub struct Plan {
-    /// The blocks in the order in which they run.
+    /// Blocks in execution order.
     pub blocks: Vec<Block>,
-    /// How many of them settle; the others make the edge.
+    /// Number of blocks that settle; the others make the edge.
     pub settling: usize,
     /// Registers, by their number in the netlist.
     pub registers: Vec<PlannedRegister>,
     /// Memories, by their number in the netlist.
     pub memories: Vec<PlannedMemory>,
-    /// Where everything stands.
+    /// Memory layout.
     pub layout: Layout,
-    /// The paths of the instances.
+    /// Instance paths.
     pub instances: Vec<String>,
 }
 
-/// A part of an instance that runs at once.
+/// Nodes of an instance that run together.
 #[derive(Debug, Clone, Default)]
 pub struct Block {
-    /// The instance.
+    /// Index of the instance.
     pub instance: u32,
-    /// What it computes, in order.
+    /// Operations, in order.
     pub steps: Vec<Step>,
-    /// What of it stands where others read it: from, to.
+    /// Results that other blocks read: from, to.
     pub outputs: Vec<(Slot, Slot)>,
-    /// The registers that it makes, and from what.
+    /// Registers that the block makes: index, and slot of the new value.
     pub registers: Vec<(u32, Slot)>,
-    /// The memories that it writes.
+    /// Memory writes.
     pub writes: Vec<Write>,
-    /// Whether one of its registers is made in its shadow.
+    /// True if one of its registers is made in a shadow.
     pub commits: bool,
-    /// What it reads.
+    /// Slots that the block reads.
     pub reads: Vec<Slot>,
 }
 
-/// A node of a block.
+/// Operation of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Step {
-    /// What it computes.
+    /// Operation code.
     pub code: Code,
-    /// Width of the result.
+    /// Width of the result in bits.
     pub width: u8,
-    /// Width of the first operand.
+    /// Width of the first operand in bits.
     pub from: u8,
-    /// Bits of a shift, the lowest of a slice, the width of the lower part of a joined word.
+    /// Distance of a shift, lowest bit of a slice, or width of the lower part of a concatenation.
     pub by: u8,
-    /// Where the result stands.
+    /// Slot of the result.
     pub to: Slot,
-    /// The operands; for a read the address and the memory.
+    /// First operand; for a read, the address.
     pub a: Slot,
-    /// The second one.
+    /// Second operand; for a read, the memory.
     pub b: Slot,
-    /// The third one.
+    /// Third operand.
     pub c: Slot,
 }
 
-/// What a step computes: see [`Op`](super::flat::Op).
+/// Operation code of a step: see [`Op`](super::flat::Op).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(missing_docs, reason = "they are those of the netlist")]
 pub enum Code {
@@ -97,52 +97,52 @@ pub enum Code {
     Read,
 }
 
-/// A write to a memory at the edge.
+/// Write to a memory at the edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Write {
-    /// The memory.
+    /// Index of the memory.
     pub memory: u32,
-    /// Where this is high.
+    /// Write enable.
     pub enable: Slot,
-    /// The word.
+    /// Word to write.
     pub data: Slot,
-    /// The address; none of a shift register.
+    /// Address; `None` for a shift register.
     pub address: Option<Slot>,
 }
 
-/// A flip-flop of a plan.
+/// Flip-flop of a plan.
 #[derive(Debug, Clone, Copy)]
 pub struct PlannedRegister {
-    /// Where it stands.
+    /// Slot of the register.
     pub slot: Slot,
-    /// Where it is made, if a later block still reads what it holds.
+    /// Slot of the new value, if a later block still reads the old one.
     pub shadow: Option<Slot>,
-    /// Its width.
+    /// Width in bits.
     pub width: u8,
 }
 
-/// A memory of a plan.
+/// Memory of a plan.
 #[derive(Debug, Clone)]
 pub struct PlannedMemory {
-    /// Its first word.
+    /// First word.
     pub first: Slot,
-    /// How many there are.
+    /// Number of words.
     pub words: u32,
-    /// Where the first stage of a shift register is, counted from the first word.
+    /// Slot with the position of a shift register's first stage, counted from the first word.
     pub head: Option<Slot>,
-    /// How often it was written or shifted.
+    /// Slot with the number of writes or shifts.
     pub mark: Slot,
-    /// Where it was written last.
+    /// Slot with the address of the last write.
     pub written: Slot,
-    /// The blocks that read it.
+    /// Blocks that read the memory.
     pub readers: Vec<u32>,
-    /// Width of a word, which compiled code asks for.
+    /// Width of a word in bits; only compiled code needs it.
     #[cfg_attr(not(feature = "jit"), expect(dead_code))]
     pub width: u8,
 }
 
 impl Plan {
-    /// Plans a netlist that keeps the leaves which are `wanted`, and behind them the properties.
+    /// Plans a netlist; keeps the leaves that are `wanted` and, after them, the properties.
     pub fn of(flat: &Flat, wanted: &[bool]) -> Plan {
         let mut watched = vec![false; flat.nodes.len()];
         for (index, place) in flat.leaves.iter().enumerate() {
@@ -159,7 +159,7 @@ impl Plan {
         Planning::new(flat, &levels, &order, wanted).plan(&reads)
     }
 
-    /// The number of a block's bit.
+    /// Returns the number of a block's bit.
     pub fn bit(&self, block: usize) -> usize {
         bit(block, self.settling)
     }

@@ -1,9 +1,9 @@
-//! What went into a circuit during a run, to be played once more.
+//! Recorded inputs of a run, for replay.
 
 use super::input::InputError;
 use super::run::Engine;
 
-/// The changes of the ports in of a run.
+/// Changes of a run's input ports.
 #[derive(Debug, Clone, Default)]
 pub struct Inputs {
     /// Ticks, ports and words, in order.
@@ -13,7 +13,7 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    /// Notes what stands at the ports in of a settled tick.
+    /// Records the input ports of a settled tick.
     pub fn note(&mut self, tick: u64, engine: &Engine) {
         self.words.resize(engine.flat().inputs.len(), 0);
         for (port, word) in self.words.iter_mut().enumerate() {
@@ -26,15 +26,15 @@ impl Inputs {
         self.ticks = tick + 1;
     }
 
-    /// How many ticks it took.
+    /// Returns the number of ticks.
     pub fn ticks(&self) -> u64 {
         self.ticks
     }
 
-    /// Plays them on an engine at power-on.
+    /// Replays the inputs on an engine in the power-on state.
     ///
     /// # Errors
-    /// The engine has other ports in.
+    /// Returns an error if the engine has other input ports.
     pub fn play(&self, engine: &mut Engine) -> Result<(), InputError> {
         let mut changes = self.changes.iter().peekable();
         for tick in 0..self.ticks {

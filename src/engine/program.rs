@@ -4,32 +4,32 @@ use super::plan::Plan;
 use crate::hdl::netlist::Design;
 use std::sync::Arc;
 
-/// A circuit that is ready to run, for as many engines as are wanted.
+/// Circuit that is ready to run; engines share it.
 #[derive(Debug)]
 pub struct Program {
-    /// The netlist as it was written: leaves that are not watched are computed from it.
+    /// Netlist before all passes: leaves that are not watched are computed from it.
     flat: Arc<Flat>,
-    /// What runs.
+    /// Plan.
     pub(super) plan: Plan,
-    /// Registers at power-on.
+    /// Power-on values of the registers.
     pub(super) power_on: Vec<u64>,
-    /// The leaves that end a run over idle ticks when they change, as slots; see
+    /// By slot: leaves that end a run over idle ticks when they change; see
     /// [`Engine::forward`](super::Engine::forward).
     pub(super) held: Vec<bool>,
     all: bool,
 }
 
-/// What of a circuit can be looked at in every tick.
+/// Selection of the leaves that can be read in every tick without extra cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Watch<'w> {
     /// All leaves.
     All,
-    /// These leaves; what else is asked for is computed then.
+    /// These leaves; others are computed on request.
     Leaves(&'w [usize]),
 }
 
 impl Program {
-    /// Plans a netlist; `held` are leaves that idle ticks leave as they are.
+    /// Plans a netlist; `held` are leaves that do not change in idle ticks.
     pub(crate) fn planned(flat: &Arc<Flat>, watch: Watch<'_>, held: &[usize]) -> Program {
         let mut wanted = vec![watch == Watch::All; flat.leaves.len() + flat.properties.len()];
         if let Watch::Leaves(leaves) = watch {
@@ -60,25 +60,26 @@ impl Program {
         }
     }
 
-    /// Whether all leaves are watched.
+    /// True if all leaves are watched.
     pub fn watches_all(&self) -> bool {
         self.all
     }
 
-    /// How it runs.
+    /// Returns the plan.
     #[inline]
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// What it was made from.
+    /// Returns the netlist before all passes.
     #[inline]
     pub fn flat(&self) -> &Flat {
         &self.flat
     }
 }
 
-/// The leaves that are ports out of a design: its outermost module's own public nets and registers.
+/// Returns the leaves that are output ports of a design: public nets and registers of its
+/// outermost module.
 pub(crate) fn ports_out(design: &Design) -> Vec<usize> {
     use crate::hdl::netlist::Register;
     let Some(module) = design.modules.last() else {

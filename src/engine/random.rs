@@ -1,29 +1,29 @@
-//! Circuits made at random, for tests that hold one way to run a circuit against another.
+//! Random circuits, for tests that compare one way to run a circuit with another.
 
 use super::flat::{Flat, Id, Instance, Memory, Node, Op, Place, Port, Register, mask};
 use super::value;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-/// A circuit and what is done to it.
+/// Circuit with a stimulus.
 #[derive(Debug, Clone)]
 pub(crate) struct Case {
     pub flat: Flat,
-    /// Which leaves, and behind them properties, are wanted.
+    /// Wanted leaves and, after them, properties.
     pub wanted: Vec<bool>,
-    /// By block, as many as there may be.
+    /// Hot blocks, as many as there may be.
     pub hot: Vec<bool>,
     pub stimulus: Vec<Hold>,
 }
 
-/// Ports in change, and then stay as they are for some ticks.
+/// New words of the input ports, and the number of ticks that they are held.
 #[derive(Debug, Clone)]
 pub(crate) struct Hold {
     pub changes: Vec<(usize, u64)>,
     pub ticks: u64,
 }
 
-/// Numbers of which something is made; they are taken modulo what there is.
+/// Random numbers from which a node is made, taken modulo the number of choices.
 #[derive(Debug, Clone)]
 struct Seed {
     kind: u8,
@@ -34,7 +34,7 @@ struct Seed {
     instance: u32,
 }
 
-/// How many instances there are.
+/// Number of instances.
 const INSTANCES: u32 = 4;
 
 fn width() -> impl Strategy<Value = u8> {
@@ -70,7 +70,7 @@ fn seed(kinds: u8) -> impl Strategy<Value = Seed> {
     )
 }
 
-/// Any circuit, any stimulus. `wanted` says whether all leaves are.
+/// Any circuit with any stimulus; with `all`, all leaves are wanted.
 pub(crate) fn cases(all: bool) -> impl Strategy<Value = Case> {
     let flat = (
         vec(width(), 1..5),
@@ -81,7 +81,7 @@ pub(crate) fn cases(all: bool) -> impl Strategy<Value = Case> {
         vec(any::<u16>(), 0..3),
     );
     let flat = flat.prop_map(|(inputs, registers, memories, nodes, leaves, properties)| {
-        Making::new(inputs).flat(&registers, &memories, &nodes, &leaves, &properties)
+        Builder::new(inputs).flat(&registers, &memories, &nodes, &leaves, &properties)
     });
     let change = (any::<u16>(), bits());
     let hold = (vec(change, 0..3), 0..6u64);
@@ -106,19 +106,19 @@ pub(crate) fn cases(all: bool) -> impl Strategy<Value = Case> {
     })
 }
 
-struct Making {
+struct Builder {
     flat: Flat,
     instance: u32,
 }
 
-impl Making {
+impl Builder {
     fn new(inputs: Vec<u8>) -> Self {
         let instances = (0..INSTANCES).map(|number| Instance {
             path: (0..number).map(|depth| format!("i{depth}")).collect(),
             circuit: "random".to_owned(),
         });
         let instances = instances.collect();
-        let mut making = Making {
+        let mut builder = Builder {
             flat: Flat {
                 inputs,
                 instances,
@@ -126,10 +126,10 @@ impl Making {
             },
             instance: 0,
         };
-        for port in 0..making.flat.inputs.len() {
-            making.node(Op::Input(port as u32), making.flat.inputs[port]);
+        for port in 0..builder.flat.inputs.len() {
+            builder.node(Op::Input(port as u32), builder.flat.inputs[port]);
         }
-        making
+        builder
     }
 
     fn node(&mut self, op: Op, width: u8) -> Id {
@@ -146,12 +146,12 @@ impl Making {
         self.flat.node(id).width
     }
 
-    /// Any node so far.
+    /// Returns any node so far.
     fn any(&self, pick: u16) -> Id {
         u32::from(pick) % self.flat.nodes.len() as u32
     }
 
-    /// Any node so far, made to be of a width.
+    /// Returns any node so far, converted to `width` bits.
     fn wide(&mut self, pick: u16, width: u8) -> Id {
         let id = self.any(pick);
         match self.width(id) {
@@ -307,7 +307,7 @@ impl Making {
     }
 }
 
-/// A circuit evaluated node by node: every node in every tick.
+/// Reference evaluation: every node in every tick.
 pub(crate) struct Plain<'f> {
     flat: &'f Flat,
     pub inputs: Vec<u64>,
@@ -375,7 +375,7 @@ impl<'f> Plain<'f> {
         self.registers = registers.map(|register| register.power_on).collect();
     }
 
-    /// A leaf, or behind them a property.
+    /// Returns a leaf or, after the leaves, a property.
     pub fn leaf(&self, index: usize) -> u64 {
         let leaves = &self.flat.leaves;
         match leaves.get(index) {

@@ -1,4 +1,4 @@
-//! The plan of a circuit as text, for whoever wants to see where its ticks go.
+//! Text report of a circuit's plan, to show where its ticks go.
 
 use super::layout::Spot;
 use super::plan::{Block, Plan};
@@ -6,12 +6,12 @@ use super::run::Engine;
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
-/// Signals by which a block is woken that a line names.
+/// Greatest number of waking signals that a line names.
 const NAMED: usize = 3;
 
-/// The blocks of an engine's plan in the order in which they run: how much each computes, what wakes
-/// it, and in what share of `ticks` it ran, as far as the interpreter counted. `name` gives the name
-/// of a leaf of the walk.
+/// Returns the blocks of an engine's plan in execution order: steps, waking signals, and the share
+/// of `ticks` in which each ran, as far as the interpreter counted. `name` returns the name of a
+/// leaf of the walk.
 pub fn report(engine: &Engine, ticks: u64, name: &dyn Fn(usize) -> String) -> String {
     let plan = engine.program().plan();
     let names = names(plan, name);
@@ -50,7 +50,7 @@ pub fn report(engine: &Engine, ticks: u64, name: &dyn Fn(usize) -> String) -> St
     for row in &rows {
         let [block, part, does, steps, ran, woken] = row;
         let [a, b, c, d, e, _] = widths;
-        // Writing to a string does not fail.
+        // Writing to a string cannot fail.
         let _ = writeln!(
             text,
             "{block:>a$}  {part:<b$}  {does:<c$}  {steps:>d$}  {ran:>e$}  {woken}"
@@ -70,7 +70,7 @@ fn part<'p>(plan: &'p Plan, block: &Block) -> &'p str {
     }
 }
 
-/// The first leaf that shows each slot.
+/// Returns the first leaf that shows each slot.
 fn names(plan: &Plan, name: &dyn Fn(usize) -> String) -> HashMap<u32, String> {
     let mut names = HashMap::new();
     for (leaf, spot) in plan.layout.leaves.iter().enumerate() {
@@ -81,7 +81,7 @@ fn names(plan: &Plan, name: &dyn Fn(usize) -> String) -> HashMap<u32, String> {
     names
 }
 
-/// The block that settles each slot.
+/// Returns the block that settles each slot.
 fn makers(plan: &Plan) -> HashMap<u32, usize> {
     let outputs = |(place, block): (usize, &Block)| {
         let slots: Vec<u32> = block.outputs.iter().map(|(_, slot)| *slot).collect();
@@ -100,7 +100,7 @@ fn woken(
     for slot in &block.reads {
         let name = match (names.get(slot), makers.get(slot)) {
             (Some(name), _) => name.clone(),
-            // A net that nobody watches has no name.
+            // An unwatched net has no name.
             (None, Some(maker)) => format!("block {maker}"),
             (None, None) => continue,
         };

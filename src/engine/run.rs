@@ -2,29 +2,29 @@ use super::flat::{Flat, Op, Place, mask};
 use super::input::InputError;
 use super::interpreter::{self, Counts};
 use super::layout::Spot;
-use super::lines::Lines;
+use super::prediction::Prediction;
 use super::program::Program;
 use super::tier::Tier;
 use super::value;
 use std::cell::RefCell;
 use std::sync::Arc;
 
-/// A circuit that runs, its type forgotten.
+/// Running circuit with its type erased.
 ///
-/// A tick is: [`input`](Self::input) for ports in that change, [`settle`](Self::settle), a look at
-/// the leaves, [`edge`](Self::edge).
+/// A tick is: [`input`](Self::input) for the ports that change, [`settle`](Self::settle), reading
+/// of leaves, [`edge`](Self::edge).
 #[derive(Debug)]
 pub struct Engine {
     program: Arc<Program>,
     slab: Vec<u64>,
     tier: Tier,
-    lines: Option<Box<Lines>>,
+    prediction: Option<Box<Prediction>>,
     pause: Pause,
-    /// All blocks run in every tick.
+    /// True if all blocks run in every tick.
     straight: bool,
-    /// All leaves of this tick, where one was asked for that is not watched.
+    /// All leaves of this tick, computed when an unwatched one was requested.
     whole: RefCell<Option<Vec<u64>>>,
-    /// The words of memories that were asked for, and how often they had been written then.
+    /// Memory words that were requested, and the number of writes at that time.
     memories: RefCell<Vec<Option<Read>>>,
 }
 
@@ -36,7 +36,7 @@ impl Clone for Engine {
             program: self.program.clone(),
             slab: self.slab.clone(),
             tier,
-            lines: None,
+            prediction: None,
             pause: self.pause,
             straight: self.straight,
             whole: RefCell::default(),
@@ -45,29 +45,29 @@ impl Clone for Engine {
     }
 }
 
-/// A memory's words, and how often it had been written.
+/// Number of writes, and words of a memory.
 type Read = (u64, Arc<[u64]>);
 
-/// When idle ticks are looked for again.
+/// Time of the next search for idle ticks.
 #[derive(Debug, Clone, Copy, Default)]
 struct Pause {
-    /// Ticks to come until then.
+    /// Ticks left until then.
     left: u64,
-    /// Ticks the last one was of.
+    /// Length of the last pause in ticks.
     ticks: u64,
-    /// By how much more tries took of late than they saved, in compiled steps.
+    /// Recent cost of attempts minus the ticks they saved, in compiled steps.
     debt: i64,
 }
 
 impl Pause {
-    /// Ticks of a pause at most: where tries have paid of late, and where they have not.
+    /// Longest pause in ticks, if recent attempts have paid off and if they have not.
     const LONGEST: [u64; 2] = [64, 512];
     const CREDIT: i64 = 1 << 20;
 
     fn after(&mut self, took: u64, saved: u64) {
         let took = took as i64;
         let saved = saved.min(u32::MAX.into()) as i64;
-        // What is long ago counts for less, and what long jumps save not for ever.
+        // Old costs fade, and long jumps do not count for ever.
         self.debt = (self.debt - self.debt / 64 + took - saved).max(-Self::CREDIT);
         let pays = self.debt <= 0;
         self.ticks = match saved > 0 && pays {
@@ -79,13 +79,13 @@ impl Pause {
 }
 
 impl Engine {
-    /// At power-on, all ports in low.
+    /// Creates an engine in the power-on state, all input ports low.
     pub(crate) fn new(program: Arc<Program>) -> Self {
         Engine {
             slab: program.plan.layout.power_on(),
             tier: Tier::new(&program.plan),
             program,
-            lines: None,
+            prediction: None,
             pause: Pause::default(),
             straight: false,
             whole: RefCell::default(),
@@ -93,34 +93,36 @@ impl Engine {
         }
     }
 
-    /// The same that compiles at once, with all blocks in line: where each tick is another state.
+    /// Creates an engine that compiles at once, with all blocks inlined: for searches, in which
+    /// each tick has another state.
     pub(crate) fn straight(program: Arc<Program>) -> Self {
         let mut engine = Engine::new(program);
         engine.straight = engine.tier.straight(&engine.program.plan);
         engine
     }
 
-    /// What runs.
+    /// Returns the program.
     #[inline]
     pub(crate) fn program(&self) -> &Program {
         &self.program
     }
 
-    /// Sets a port in by its number, counted from 0, to the bits of `word`.
+    /// Sets an input port by its number, counted from 0, to the bits of `word`.
     ///
     /// # Errors
-    /// There is no such port, or the word is wider than it; nothing is set then.
+    /// Returns an error if there is no such port, or the word is wider than it; nothing is set
+    /// then.
     pub fn input(&mut self, port: usize, word: u64) -> Result<(), InputError> {
         self.check(port, word)?;
         self.drive(port, word);
         Ok(())
     }
 
-    /// Sets all ports in to the bits of `words`.
+    /// Sets all input ports to the bits of `words`.
     ///
     /// # Errors
-    /// The number of words is not that of the ports, or a word is wider than its port; nothing is
-    /// set then.
+    /// Returns an error if the number of words is not that of the ports, or a word is wider than
+    /// its port; nothing is set then.
     pub fn inputs(&mut self, words: &[u64]) -> Result<(), InputError> {
         let ports = self.ports();
         if words.len() != ports {
@@ -145,12 +147,12 @@ impl Engine {
         }
     }
 
-    /// Number of ports in.
+    /// Returns the number of input ports.
     pub fn ports(&self) -> usize {
         self.flat().inputs.len()
     }
 
-    /// Sets a port in to a word that fits it.
+    /// Sets an input port to a word that fits it.
     #[inline]
     pub(crate) fn drive(&mut self, port: usize, word: u64) {
         let layout = &self.program.plan.layout;
@@ -163,7 +165,7 @@ impl Engine {
         }
     }
 
-    /// Sets the first ports in to words that fit them.
+    /// Sets the first input ports to words that fit them.
     #[inline]
     pub(crate) fn drive_all(&mut self, words: &[u64]) {
         for (port, &word) in words.iter().enumerate() {
@@ -171,7 +173,7 @@ impl Engine {
         }
     }
 
-    /// Bits that stand at a port in; `None` if there is no such port.
+    /// Returns the bits of an input port; `None` if there is no such port.
     #[inline]
     pub fn port(&self, port: usize) -> Option<u64> {
         let slot = self.program.plan.layout.inputs.get(port);
@@ -184,7 +186,7 @@ impl Engine {
         self.tier.settle(&self.program.plan, &mut self.slab);
     }
 
-    /// Makes the registers of the next tick. What has changed is counted from here.
+    /// Makes the registers of the next tick, and clears the change marks.
     #[inline]
     pub fn edge(&mut self) {
         self.begin();
@@ -192,14 +194,15 @@ impl Engine {
         self.tier.edge(&self.program.plan, &mut self.slab);
     }
 
-    /// An edge with reset: flip-flops as at power-on, memories as the edge makes them.
+    /// Makes an edge with reset: flip-flops take their power-on values, memories are written as
+    /// usual.
     pub fn reset(&mut self) {
         self.edge();
         let program = &self.program;
         for (register, &word) in program.plan.registers.iter().zip(&program.power_on) {
             interpreter::put(&program.plan.layout, &mut self.slab, register.slot, word);
         }
-        // The edge that would make a register again what it was has nothing else to wake it.
+        // An edge that would restore the old register has nothing else to wake it.
         self.wake_all();
     }
 
@@ -212,8 +215,8 @@ impl Engine {
         *self.whole.get_mut() = None;
     }
 
-    /// Up to so many times an edge and a settling with ports in as they are; ends where a watched
-    /// leaf has changed. Returns how often.
+    /// Makes up to `ticks` edges, each with a settling and constant input ports; stops when a
+    /// watched leaf has changed. Returns the number of ticks.
     pub(crate) fn advance(&mut self, ticks: u64) -> u64 {
         self.begin();
         let event = self.program.plan.layout.event as usize;
@@ -227,55 +230,56 @@ impl Engine {
         done
     }
 
-    /// Whether something watched has changed since the tick before.
+    /// True if something watched has changed since the tick before.
     pub(crate) fn has_changed(&self) -> bool {
         self.slab[self.program.plan.layout.event as usize] != 0
     }
 
-    /// Goes over idle ticks, of this settled one and at most `most` in all, ports in as they are.
-    /// Returns how many, 0 where it is not idle or none are looked for yet; the one behind them is
-    /// yet to settle. In none of them, the first aside, has a port out changed.
+    /// Jumps over idle ticks, at most `most` including this settled one, with constant input
+    /// ports. Returns their number: 0 if this tick is not idle or no search is due. The tick after
+    /// them is not settled. Output ports do not change in them, except in the first.
     pub(crate) fn forward(&mut self, most: u64) -> u64 {
         if self.pause.left > 0 || most < 2 {
             return 0;
         }
         let program = &self.program;
-        let lines = self
-            .lines
-            .get_or_insert_with(|| Box::new(Lines::new(&program.plan, &program.held)));
-        let ticks = lines.horizon(&program.plan, self.tier.hot(), &self.slab, most);
+        let prediction = self
+            .prediction
+            .get_or_insert_with(|| Box::new(Prediction::new(&program.plan, &program.held)));
+        let ticks = prediction.horizon(&program.plan, self.tier.hot(), &self.slab, most);
         let saved = if ticks < 2 {
             0
         } else {
             ticks.saturating_mul(self.tier.pace())
         };
-        self.pause.after(lines.work(), saved);
+        self.pause.after(prediction.work(), saved);
         if ticks < 2 {
             return 0;
         }
         self.begin();
-        if let Some(lines) = &mut self.lines {
-            lines.jump(&self.program.plan, &mut self.slab, ticks);
+        if let Some(prediction) = &mut self.prediction {
+            prediction.jump(&self.program.plan, &mut self.slab, ticks);
         }
         ticks
     }
 
-    /// For how many ticks it is not asked again whether they are idle.
+    /// Returns the number of ticks until the next search for idle ticks.
     pub(crate) fn pause(&self) -> u64 {
         self.pause.left.max(1)
     }
 
-    /// How many leaves there are.
+    /// Returns the number of leaves.
     pub fn leaves(&self) -> usize {
         self.program.plan.layout.leaves.len()
     }
 
-    /// Bits of a leaf of the walk; `None` if there is no such leaf. A net needs a settled tick.
+    /// Returns the bits of a leaf of the walk; `None` if there is no such leaf. A net needs a
+    /// settled tick.
     pub fn leaf(&self, leaf: usize) -> Option<u64> {
         (leaf < self.leaves()).then(|| self.word(leaf))
     }
 
-    /// Bits of a leaf that is there.
+    /// Returns the bits of a leaf, or 0 if there is no such leaf.
     #[inline]
     pub(crate) fn word(&self, leaf: usize) -> u64 {
         match self.program.plan.layout.leaves.get(leaf) {
@@ -301,14 +305,15 @@ impl Engine {
         }
     }
 
-    /// Whether a property holds.
+    /// True if a property holds.
     pub(crate) fn property(&self, property: usize) -> bool {
         let spot = self.program.plan.layout.properties.get(property);
         let leaf = self.leaves() + property;
         spot.is_none_or(|&spot| self.spot(spot, leaf) != 0)
     }
 
-    /// All leaves and properties, node by node from the netlist as it was written.
+    /// Returns all leaves and properties, computed node by node from the netlist before all
+    /// passes.
     fn settled_whole(&self) -> Vec<u64> {
         let flat = self.program.flat();
         let plan = &self.program.plan;
@@ -346,8 +351,8 @@ impl Engine {
         }
     }
 
-    /// Calls `see` with the place in [`Layout::watched`](super::Layout::watched) of all that has
-    /// changed since the tick before.
+    /// Calls `see` with the index in [`Layout::watched`](super::Layout::watched) of everything
+    /// that has changed since the tick before.
     #[inline]
     pub(crate) fn changed(&self, mut see: impl FnMut(usize)) {
         let layout = &self.program.plan.layout;
@@ -360,7 +365,7 @@ impl Engine {
         }
     }
 
-    /// The words of the memory whose first word is a leaf, in their order.
+    /// Returns the words of the memory whose first word is this leaf.
     pub(crate) fn memory_at(&self, leaf: usize) -> Option<Arc<[u64]>> {
         let Some(Place::Word(number, 0)) = self.program.flat().leaves.get(leaf) else {
             return None;
@@ -382,7 +387,7 @@ impl Engine {
         }
     }
 
-    /// How often a memory was written, and where last.
+    /// Returns the number of writes of a memory, and the address of the last one.
     pub(crate) fn written(&self, memory: usize) -> (u64, u64) {
         let memory = &self.program.plan.memories[memory];
         (
@@ -391,27 +396,27 @@ impl Engine {
         )
     }
 
-    /// The whole state: registers, memories and what has been settled.
+    /// Returns the whole state: registers, memories and settled nets.
     #[inline]
     pub(crate) fn slab(&self) -> &[u64] {
         &self.slab
     }
 
-    /// Takes over a state of an engine of the same program.
+    /// Restores a state of an engine of the same program.
     pub(crate) fn restore(&mut self, slab: &[u64]) {
         self.slab.copy_from_slice(slab);
         *self.whole.get_mut() = None;
         self.memories.take();
     }
 
-    /// Sets a register or a word of a memory, by its leaf, and wakes everything.
+    /// Sets a register or a word of a memory, by its leaf; [`wake`](Self::wake) must follow.
     pub(crate) fn set_leaf(&mut self, leaf: usize, word: u64) {
         let plan = &self.program.plan;
         let slot = match plan.layout.leaves.get(leaf) {
             Some(Spot::Slot(slot)) => *slot,
             Some(Spot::Stage(memory, stage)) => {
                 let memory = &plan.memories[*memory as usize];
-                // The stages are in their order from here on.
+                // The stages are in order from here on.
                 let head = memory.head.map_or(0, |head| self.slab[head as usize]);
                 memory.first + ((u64::from(*stage) + head) % u64::from(memory.words)) as u32
             }
@@ -420,7 +425,7 @@ impl Engine {
         self.slab[slot as usize] = word;
     }
 
-    /// Every block is to run: what [`set_leaf`](Self::set_leaf) has set is new.
+    /// Wakes every block, so that words set by [`set_leaf`](Self::set_leaf) take effect.
     pub(crate) fn wake(&mut self) {
         if !self.straight {
             self.wake_all();
@@ -433,25 +438,25 @@ impl Engine {
         self.program.plan.layout.wake(&mut self.slab);
     }
 
-    /// How often each block has run, as far as it was counted.
+    /// Returns the number of runs of each block, as far as the interpreter counted.
     pub(crate) fn counts(&self) -> &Counts {
         self.tier.counts()
     }
 
-    /// Compiles now, instead of when it pays: blocks that ran in more than half of the ticks so far
-    /// are in line. Whether the machine code is there.
+    /// Compiles at once, rather than when it pays; blocks that ran in more than half of the ticks
+    /// so far are inlined. Returns true if there is machine code.
     pub fn compile(&mut self) -> bool {
         self.tier.compile_now(&self.program.plan)
     }
 
-    /// Goes on by the interpreter, which counts blocks, and never compiles.
+    /// Continues on the interpreter, which counts blocks, and never compiles.
     pub fn interpret(&mut self) {
         self.tier.interpret();
-        // Blocks in line of the code have left their bits as they were.
+        // Inlined blocks of the code do not maintain their bits.
         self.wake_all();
     }
 
-    /// Netlist that it was made from.
+    /// Returns the netlist before all passes.
     #[inline]
     pub(crate) fn flat(&self) -> &Flat {
         self.program.flat()

@@ -1,4 +1,4 @@
-//! An engine as its users drive it: ticks, resets, words that do not fit.
+//! The engine as its users drive it: ticks, resets, words that do not fit.
 
 use super::flat::mask;
 use super::random::{Case, Plain, cases};
@@ -6,7 +6,7 @@ use super::{Engine, Program, Watch};
 use proptest::prelude::*;
 use std::sync::Arc;
 
-/// The engine against every node in every tick, with resets at some of its edges.
+/// Compares the engine with every node in every tick, with resets at some edges.
 fn with_resets(case: &Case, resets: &[bool]) -> Result<(), TestCaseError> {
     let flat = Arc::new(case.flat.clone());
     let program = Arc::new(Program::planned(&flat, Watch::All, &[]));

@@ -1,5 +1,5 @@
-//! Which backend runs: the interpreter at first, which counts how often each block runs, and
-//! compiled code once it has run for long enough to pay.
+//! Choice of the backend: the interpreter at first, which counts block runs, and compiled code
+//! once the run is long enough to pay.
 
 #[cfg(feature = "jit")]
 use super::compiler::Code;
@@ -7,31 +7,31 @@ use super::interpreter::{self, Counts};
 use super::plan::Plan;
 use std::sync::{Arc, OnceLock};
 
-/// How often all of a circuit's steps, on average, are interpreted before it is compiled: compiling
-/// takes so many times as long as interpreting.
+/// Average number of times each step is interpreted before compiling: the cost of compiling a step
+/// in interpreted steps.
 const PAYS: u64 = 600;
-/// How many compiled steps take as long as one that is interpreted.
+/// Cost of an interpreted step, in compiled steps.
 const INTERPRETED: u64 = 6;
-/// Ticks in which blocks are counted at least.
+/// Least number of ticks in which blocks are counted.
 const COUNTED: u64 = 256;
 
-/// A backend, and what it knows of the circuit.
+/// Backend with its statistics.
 #[derive(Debug, Clone)]
 pub(super) struct Tier {
     backend: Backend,
     counts: Counts,
     ticks: u64,
-    /// Steps interpreted after which it is compiled.
+    /// Number of interpreted steps after which the circuit is compiled.
     due: u64,
-    /// Compiled steps that take as long as a tick.
+    /// Cost of a tick, in compiled steps.
     pace: u64,
-    /// The blocks compiled in line.
+    /// Blocks that are inlined.
     hot: Arc<[bool]>,
-    /// What one of all clones has compiled.
+    /// Code that one of all clones has compiled.
     shared: Arc<OnceLock<Compiled>>,
 }
 
-/// A backend with the blocks that are in line of it.
+/// Backend, its inlined blocks, and the cost of a tick.
 type Compiled = (Backend, Arc<[bool]>, u64);
 
 #[derive(Debug, Clone)]
@@ -59,7 +59,7 @@ impl Tier {
         }
     }
 
-    /// Takes over what a clone has compiled, if this one is to be compiled at all.
+    /// Takes over the code of a clone, unless this tier never compiles.
     pub fn adopt(&mut self) {
         if self.due != u64::MAX
             && let Some((backend, hot, pace)) = self.shared.get()
@@ -68,19 +68,19 @@ impl Tier {
         }
     }
 
-    /// Never compiles.
+    /// Stays on the interpreter from here on.
     pub fn interpret(&mut self) {
         self.backend = Backend::Interpreter;
         self.due = u64::MAX;
     }
 
-    /// Compiles at once, all blocks in line; whether it could.
+    /// Compiles at once with all blocks inlined; returns true if there is code.
     pub fn straight(&mut self, plan: &Plan) -> bool {
         self.compile(plan, vec![true; plan.blocks.len()]);
         !matches!(self.backend, Backend::Interpreter)
     }
 
-    /// How long a tick takes, in compiled steps.
+    /// Returns the cost of a tick, in compiled steps.
     pub fn pace(&self) -> u64 {
         self.pace
     }
@@ -112,7 +112,8 @@ impl Tier {
         }
     }
 
-    /// Edge and settling, up to so many times; ends earlier where it likes. Returns how often.
+    /// Makes up to `ticks` edges, each with a settling; may stop earlier. Returns the number of
+    /// ticks.
     pub fn advance(&mut self, plan: &Plan, slab: &mut [u64], ticks: u64) -> u64 {
         let _ = ticks;
         match &self.backend {
@@ -126,10 +127,10 @@ impl Tier {
         }
     }
 
-    /// A tick was interpreted.
+    /// Counts an interpreted tick.
     fn tick(&mut self, plan: &Plan) {
         self.ticks += 1;
-        // Not in every tick: the sum takes longer than some ticks.
+        // Checked rarely: the sum takes longer than some ticks.
         if self.due == u64::MAX || !self.ticks.is_multiple_of(COUNTED) {
             return;
         }
@@ -142,7 +143,7 @@ impl Tier {
         }
     }
 
-    /// Compiles with the blocks in line that have run in most ticks; whether there is code.
+    /// Compiles with the blocks inlined that ran in most ticks; returns true if there is code.
     pub fn compile_now(&mut self, plan: &Plan) -> bool {
         if matches!(self.backend, Backend::Interpreter) {
             let often = |count: &u64| 2 * count > self.ticks;
@@ -158,7 +159,7 @@ impl Tier {
                 self.backend = Backend::Code(Arc::new(code));
                 self.hot = hot.into();
                 self.pace /= INTERPRETED;
-                // The first one stays, if another was as fast.
+                // The first one is kept if another clone was as fast.
                 let _ = self
                     .shared
                     .set((self.backend.clone(), self.hot.clone(), self.pace));
@@ -174,7 +175,7 @@ impl Tier {
     fn compile(&mut self, _: &Plan, _: Vec<bool>) {}
 }
 
-/// Says once why runs are slow.
+/// Prints one warning that circuits are interpreted.
 #[cfg(feature = "jit")]
 fn say(error: &super::compiler::CompileError) {
     static SAID: std::sync::Once = std::sync::Once::new();

@@ -1,14 +1,14 @@
-//! Ticks one behind the other, without registers.
+//! Unrolling: consecutive ticks without registers.
 
 use super::flat::{Flat, Id, Node, Op, Place, Port, Register};
 
-/// The nodes with which unrolling is given up.
+/// Number of nodes at which unrolling is given up.
 const MOST: usize = 1 << 20;
 
 impl Flat {
-    /// What the last `leaves` leaves of a circuit are in the last of `ticks` ticks from power-on, with
-    /// ports in that stay as they are: a netlist without registers. Nothing where a memory is written,
-    /// or where there would be too many nodes.
+    /// Returns the last `leaves` leaves of a circuit in the last of `ticks` ticks from power-on,
+    /// with constant input ports, as a netlist without registers. Returns `None` if a memory is
+    /// written or there would be too many nodes.
     pub(crate) fn unrolled(&self, ticks: u64, leaves: usize) -> Option<Flat> {
         let written = self.memories.iter().any(|memory| memory.port != Port::Rom);
         let nodes = u64::try_from(self.nodes.len()).ok()?.checked_mul(ticks)?;

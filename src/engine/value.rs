@@ -1,9 +1,9 @@
-//! What a node is, from the values of its operands: the meaning that every backend has.
+//! Value of a node from the values of its operands: the meaning that every backend has.
 
 use super::flat::{Id, Node, Op, mask};
 
-/// The value of a node that is neither a port in, a register nor a word of a memory; `operand`
-/// gives value and width of an operand.
+/// Returns the value of a node that is not an input port, register or memory word; `operand`
+/// returns value and width of an operand.
 pub fn of(node: Node, operand: impl Fn(Id) -> (u64, u8)) -> u64 {
     let word = |id| operand(id).0;
     let value = match node.op {
@@ -46,7 +46,7 @@ pub fn of(node: Node, operand: impl Fn(Id) -> (u64, u8)) -> u64 {
     value & mask(node.width)
 }
 
-/// A word of so many bits read as two's complement.
+/// Reads the low `width` bits of a word as two's complement.
 #[inline]
 pub(crate) const fn signed(word: u64, width: u8) -> i64 {
     let spare = 64 - width as u32;

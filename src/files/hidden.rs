@@ -1,4 +1,4 @@
-//! Hidden files beside those of a run: how they are opened, locked and named.
+//! Hidden files beside those of a run: opening, locking and naming.
 
 use super::{PREFIX, SUFFIX};
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -10,13 +10,14 @@ use tempfile::NamedTempFile;
 /// Suffix of a temporary file that may not be locked yet.
 pub(super) const FRESH: &str = ".new";
 
-/// Age from which such a file was left: it is locked and renamed right after it is made.
+/// Age after which such a file is left over: it is locked and renamed immediately after its
+/// creation.
 pub(super) const STALE: Duration = Duration::from_secs(60);
 
-/// Problem of an entry that is no regular file.
+/// Problem of an entry that is not a regular file.
 pub(super) const NOT_REGULAR: &str = "is not a regular file";
 
-/// Creates a temporary file in this directory that is locked for as long as it is open.
+/// Creates a temporary file in this directory that is locked while it is open.
 pub(super) fn temporary(directory: &Path) -> io::Result<NamedTempFile> {
     // The builder's own error would name the temporary file.
     let mut failed = None;
@@ -26,17 +27,17 @@ pub(super) fn temporary(directory: &Path) -> io::Result<NamedTempFile> {
     made.map_err(|error| failed.map_or(error, io::Error::from_raw_os_error))
 }
 
-/// Names of temporary files.
+/// Returns a builder for names of temporary files.
 pub(super) fn builder() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(PREFIX).suffix(SUFFIX);
     builder
 }
 
-/// Creates and locks a file under another name first: under its own nobody finds it unlocked.
+/// Creates and locks a file under another name first: nobody finds it unlocked under its own.
 fn begin(path: &Path) -> io::Result<File> {
     let fresh = path.with_extension(&FRESH[1..]);
-    // Not private, as temporary files are otherwise: it is to become an ordinary one.
+    // Ordinary permissions, unlike other temporary files: it is to become an ordinary file.
     let file = File::options()
         .read(true)
         .write(true)
@@ -44,7 +45,7 @@ fn begin(path: &Path) -> io::Result<File> {
         .open(&fresh)?;
     let locked = match file.try_lock() {
         Err(TryLockError::WouldBlock) => Err(io::ErrorKind::AlreadyExists.into()),
-        // Where files cannot be locked, what is left is never removed.
+        // If files cannot be locked, left-over files are never removed.
         Ok(()) | Err(TryLockError::Error(_)) => rename(&fresh, path),
     };
     match locked {
@@ -67,7 +68,8 @@ pub(super) fn rename(from: &Path, to: &Path) -> io::Result<()> {
 /// Opens a regular file. Follows no link, and never waits for the other end of a pipe.
 ///
 /// # Errors
-/// What has this name is something else: [`NOT_REGULAR`], as [`io::ErrorKind::InvalidInput`].
+/// Returns [`NOT_REGULAR`] as [`io::ErrorKind::InvalidInput`] if the name belongs to something
+/// else.
 pub(super) fn open(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
     #[cfg(unix)]
     {
@@ -99,7 +101,7 @@ pub(super) fn is_there(file: &File, path: &Path) -> bool {
     }
 }
 
-/// True if an open file still has this name: elsewhere what is open cannot be removed.
+/// True on systems on which an open file cannot be removed.
 #[cfg(not(unix))]
 pub(super) fn is_there(_: &File, _: &Path) -> bool {
     true

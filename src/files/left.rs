@@ -1,5 +1,5 @@
-//! Who writes: a temporary file is locked while somebody does, and one that is not was left by a
-//! program that something ended at once.
+//! Claims of writers: a temporary file is locked while it is written; an unlocked one was left by
+//! a program that was killed.
 
 use super::hidden::{FRESH, NOT_REGULAR, STALE, is_there, open};
 use super::{PREFIX, SUFFIX, Unfinished, named, unfinished};
@@ -9,40 +9,41 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Bytes of a stem that the name of a claim has at most.
+/// Greatest number of bytes of a stem in the name of a claim.
 const STEM: usize = 200;
 
-/// What the names of claims end with.
+/// Suffix of the names of claims.
 const CLAIM: &str = ".lock";
 
-/// Stem of the claim by which one run at a time clears a directory: no file is called so.
+/// Stem of the claim for clearing a directory, which one run does at a time; no file has it.
 const CLEARING: &str = "";
 
-/// Wait before a claim is tried again.
+/// Time between attempts to claim.
 const WAIT: Duration = Duration::from_millis(1);
 
 /// Longest wait for others that name their files.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// The files of a stem in a directory, for one writer at a time.
+/// Claim on the files of a stem in a directory, for one writer at a time.
 ///
-/// It is a lock on a hidden file beside them, which goes when this is dropped.
+/// The claim is a lock on a hidden file beside them, which is removed when the claim is dropped.
 #[derive(Debug)]
 #[must_use = "dropped, it lets others write"]
 pub struct Claim {
     path: PathBuf,
-    /// Gone once it is to be removed.
+    /// Hidden file; `None` once it is to be removed.
     file: Option<File>,
     _unfinished: Unfinished,
 }
 
 impl Claim {
-    /// Claims the files called `stem` in `directory`. Where files cannot be made or locked there is
-    /// no claim, and no error.
+    /// Claims the files named `stem` in `directory`. If files cannot be created or locked there,
+    /// returns `None` and no error.
     ///
     /// # Errors
-    /// Somebody else has claimed them; something that is no regular file has the name of the hidden
-    /// file; the files were [abandoned](super::abandon). The error names the path.
+    /// Returns an error if somebody else has claimed them, the hidden file's name belongs to
+    /// anything but a regular file, or the files were [abandoned](super::abandon). The error names
+    /// the path.
     pub fn new(directory: &Path, stem: &str) -> io::Result<Option<Self>> {
         let end = (0..=STEM.min(stem.len()))
             .rev()
@@ -59,7 +60,7 @@ impl Claim {
                 Ok(tried)
             });
             return match tried {
-                // Outside of the list, for which a signal waits.
+                // Outside of the list's lock, for which a signal waits.
                 Ok(Attempt::Again) => {
                     thread::sleep(WAIT);
                     continue;
@@ -83,7 +84,8 @@ impl Claim {
     /// Claims files as [`new`](Claim::new) does, and waits while somebody else names theirs.
     ///
     /// # Errors
-    /// As [`new`](Claim::new), the claim of somebody else only after ten seconds.
+    /// Returns the errors of [`new`](Claim::new); a claim of somebody else is an error after ten
+    /// seconds.
     pub fn wait(directory: &Path, stem: &str) -> io::Result<Option<Self>> {
         let begun = Instant::now();
         loop {
@@ -102,7 +104,7 @@ impl Claim {
 
 impl Drop for Claim {
     fn drop(&mut self) {
-        // While it is locked: who finds it then waits for no file that is gone.
+        // Removed while locked: whoever finds it then does not wait for a removed file.
         let _ = fs::remove_file(&self.path);
         drop(self.file.take());
     }
@@ -111,13 +113,13 @@ impl Drop for Claim {
 /// Result of one attempt to claim.
 enum Attempt {
     Locked(File),
-    /// The file is going, or somebody looks whether it was left.
+    /// The file is being removed, or somebody checks if it was left over.
     Again,
-    /// Files cannot be made or locked here.
+    /// Files cannot be created or locked here.
     Impossible,
 }
 
-/// Makes a file and locks it. A writer's lock is exclusive, that of who clears away is shared.
+/// Creates a file and locks it. The lock of a writer is exclusive, that of a cleaner is shared.
 fn attempt(path: &Path) -> io::Result<Attempt> {
     let mut options = File::options();
     let opened = open(options.write(true).create(true).truncate(false), path);
@@ -149,12 +151,12 @@ fn attempt(path: &Path) -> io::Result<Attempt> {
     }
 }
 
-/// Removes what runs have left in a directory that something ended at once: hidden files that nobody
-/// has locked. Returns the paths of temporary files, in order; claims hold nothing. Does nothing
-/// where somebody else does it at the same time.
+/// Removes files that killed runs have left in a directory: hidden files without a lock. Returns
+/// the paths of the temporary files, in order; claims contain nothing. Does nothing if somebody
+/// else is clearing the directory.
 pub fn clear(directory: &Path) -> Vec<PathBuf> {
     let mut removed = Vec::new();
-    // One at a time: a claim that was removed may be there again for the next one.
+    // One run at a time: a removed claim may exist again for the next one.
     let Ok(Some(_claim)) = Claim::new(directory, CLEARING) else {
         return removed;
     };
@@ -175,18 +177,18 @@ pub fn clear(directory: &Path) -> Vec<PathBuf> {
     removed
 }
 
-/// True if a file is older than one that somebody has only just made.
+/// True if a file is too old to have just been created.
 fn is_stale(path: &Path) -> bool {
     let made = path.symlink_metadata().and_then(|found| found.modified());
     let age = made.ok().and_then(|made| made.elapsed().ok());
     age.is_some_and(|age| age >= STALE)
 }
 
-/// Removes a regular file that nobody has locked; true if it did.
+/// Removes a regular file that nobody has locked; returns true if it did.
 fn remove(path: &Path, lock: fn(&File) -> Result<(), TryLockError>) -> bool {
     let Ok(file) = open(File::options().read(true), path) else {
         return false;
     };
-    // The lock is held until the file is gone.
+    // The lock is held until the file is removed.
     lock(&file).is_ok() && is_there(&file, path) && fs::remove_file(path).is_ok()
 }

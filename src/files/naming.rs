@@ -1,4 +1,4 @@
-//! Several files take their names together.
+//! Naming of several files together.
 
 use super::hidden::{self, FRESH, is_there, open};
 use super::{AtomicFile, named, unfinished};
@@ -8,15 +8,16 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
 
-/// Attempts to keep an older file that other runs replace at the same time, and the wait between.
+/// Number of attempts to keep an older file while other runs replace it, and the wait between.
 const TRIES: usize = 100;
 const WAIT: Duration = Duration::from_millis(1);
 
-/// Gives all of them their names, or none: where one cannot be named, those before it go again, and
-/// what they have replaced is there again.
+/// Gives all files their names, or none: if one cannot be named, the files named before it are
+/// removed, and the files they replaced are restored.
 ///
 /// # Errors
-/// A rename failed; the files were [abandoned](super::abandon). The error names the path.
+/// Returns an error if a rename failed, or the files were [abandoned](super::abandon). The error
+/// names the path.
 pub fn commit_all(files: impl IntoIterator<Item = AtomicFile>) -> io::Result<Vec<PathBuf>> {
     let mut entries = Vec::new();
     let (mut open, mut paths) = (Vec::new(), Vec::new());
@@ -27,7 +28,7 @@ pub fn commit_all(files: impl IntoIterator<Item = AtomicFile>) -> io::Result<Vec
         target,
     } in files
     {
-        // They stay on the list until all have their names, as it is held meanwhile.
+        // Entries stay on the list until all files have their names, as it is locked meanwhile.
         entries.push(_unfinished);
         open.push((file, target));
         paths.push(path);
@@ -38,20 +39,20 @@ pub fn commit_all(files: impl IntoIterator<Item = AtomicFile>) -> io::Result<Vec
             let path = paths.first().map_or(Path::new(""), PathBuf::as_path);
             return Err(named(path, &error));
         }
-        // One file replaces another in one step; of several the first ones have to go back.
+        // One file replaces another in one step; of several, the first ones may have to be undone.
         let several = open.len() > 1;
         let mut done: Vec<(PathBuf, Option<Older>)> = Vec::new();
         for ((file, target), path) in open.into_iter().zip(&paths) {
             let older = several.then(|| Older::keep(&target)).flatten();
             let replaced = file.persist(&target);
-            // What was there is put back with the others.
+            // The older file is restored with the others.
             done.push((target, older));
             if let Err(failed) = replaced {
                 let last = done.len() - 1;
                 for (place, (target, older)) in done.into_iter().enumerate().rev() {
                     match older {
                         Some(older) => older.put_back(&target),
-                        // The first error is the one to report. The last one was not named.
+                        // The first error is reported. The last file was not named.
                         None if place < last => drop(fs::remove_file(target)),
                         None => {}
                     }
@@ -68,16 +69,17 @@ pub fn commit_all(files: impl IntoIterator<Item = AtomicFile>) -> io::Result<Vec
     Ok(paths)
 }
 
-/// File that another one has replaced, by another name.
+/// File that was replaced, under another name.
 struct Older {
     path: PathBuf,
-    /// Locked, so that it is not taken for one that was left. Shared: several runs may replace it.
+    /// Locked, so that it is not taken for a left-over file. The lock is shared: several runs may
+    /// replace it.
     _held: Option<File>,
 }
 
 impl Older {
-    /// Gives an older file a second name, or where that is not to be had another one; nothing where
-    /// there is none.
+    /// Gives an older file a second name or, if that is not possible, another name. Returns `None`
+    /// if there is no older file.
     fn keep(target: &Path) -> Option<Self> {
         for _ in 0..TRIES {
             let held = open(File::options().read(true), target);
@@ -86,11 +88,11 @@ impl Older {
             {
                 return None;
             }
-            // Without a lock where it may not be read.
+            // No lock if the file may not be read.
             let held = held.ok();
             let locked = held.as_ref().map(File::try_lock_shared);
             if let Some(Err(TryLockError::WouldBlock)) = locked {
-                // Another run has only just named it.
+                // Another run has just named it.
                 thread::sleep(WAIT);
                 continue;
             }
@@ -103,7 +105,7 @@ impl Older {
 
     fn put_back(self, target: &Path) {
         let _ = fs::rename(&self.path, target);
-        // Two names of one file stay as they are when one is to become the other.
+        // Two names of one file stay when one is renamed to the other.
         let _ = fs::remove_file(&self.path);
     }
 
@@ -112,8 +114,8 @@ impl Older {
     }
 }
 
-/// The second name of a file; none where `held` is no longer the file of this name. An error where
-/// there is no room for one.
+/// Creates a second name of a file. Returns `None` if `held` is not the file of this name any
+/// more, and `Some(None)` if a second name is impossible.
 pub(super) fn second(target: &Path, held: Option<&File>) -> Option<Option<PathBuf>> {
     let directory = target.parent().filter(|path| !path.as_os_str().is_empty());
     let mut changed = false;
@@ -121,7 +123,7 @@ pub(super) fn second(target: &Path, held: Option<&File>) -> Option<Option<PathBu
         let fresh = path.with_extension(&FRESH[1..]);
         match fs::hard_link(target, &fresh) {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => return Err(error),
-            // No second names here.
+            // Second names are not supported here.
             Err(_) => return hidden::rename(target, path),
             Ok(()) => {}
         }

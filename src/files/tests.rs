@@ -105,7 +105,7 @@ fn a_link_stays_and_what_it_leads_to_is_written() {
         assert!(!at(target).is_symlink(), "{link}");
         assert_eq!(fs::read_to_string(at(target)).unwrap(), link);
     }
-    // The temporary file stands where the rename is one step.
+    // The temporary file is in the directory in which the rename is one step.
     let file = AtomicFile::create(at("there")).unwrap();
     assert_eq!(names(&at("far")).len(), 3);
     drop(file);
@@ -165,7 +165,7 @@ fn where_one_cannot_be_named_the_older_ones_are_there_again() {
     fs::write(path("a"), "old").unwrap();
     let all = ["a", "b", "c", "d"];
     let files = all.map(|name| begin(directory.path(), name, "new"));
-    // In the way only after the file was begun.
+    // Blocked only after the file was begun.
     fs::create_dir_all(path("c/full")).unwrap();
     let error = commit_all(files).unwrap_err().to_string();
     assert!(
@@ -224,7 +224,7 @@ fn a_stem_has_one_writer_at_a_time() {
         drop(other);
         assert!(names(directory.path()).is_empty());
     }
-    // Where no file can be made there is no claim; who writes there says why not.
+    // If no file can be created there is no claim; writing reports the reason.
     assert!(
         Claim::new(&directory.path().join("none"), "a")
             .unwrap()
@@ -232,7 +232,7 @@ fn a_stem_has_one_writer_at_a_time() {
     );
 }
 
-/// Whoever writes at the same time never takes a file that is being written for one that was left.
+/// A concurrent run never takes a file that is being written for a left-over one.
 #[test]
 fn files_that_are_only_just_begun_are_no_leftovers() {
     let directory = tempfile::tempdir().unwrap();
@@ -263,7 +263,7 @@ fn files_that_are_only_just_begun_are_no_leftovers() {
     });
 }
 
-/// Runs with stems of their own replace the same files, and each clears before it begins.
+/// Runs with different stems replace the same files, and each clears before it begins.
 #[test]
 fn runs_side_by_side_see_no_leftovers_and_no_other_writer() {
     let directory = tempfile::tempdir().unwrap();
@@ -287,7 +287,7 @@ fn runs_side_by_side_see_no_leftovers_and_no_other_writer() {
     assert_eq!(fs::read(directory.path().join("b")).unwrap(), b"b");
 }
 
-/// A claim that was left is taken over by the next run, or goes, without a word.
+/// A left-over claim is taken over by the next run, or removed, silently.
 #[test]
 fn claims_that_were_left_are_in_nobodys_way() {
     let directory = tempfile::tempdir().unwrap();
@@ -295,7 +295,7 @@ fn claims_that_were_left_are_in_nobodys_way() {
     fs::write(&path, "").unwrap();
     drop(Claim::new(directory.path(), "a").unwrap().unwrap());
     assert!(names(directory.path()).is_empty());
-    // Somebody who only looks at it is no writer.
+    // A mere reader is not a writer.
     let look = || {
         fs::write(&path, "").unwrap();
         let looks = fs::File::open(&path).unwrap();
@@ -315,7 +315,7 @@ fn claims_that_were_left_are_in_nobodys_way() {
         claimed.join().unwrap().unwrap();
     });
     assert!(names(directory.path()).is_empty());
-    // One at a time clears.
+    // One run clears at a time.
     let other = Claim::new(directory.path(), "").unwrap().unwrap();
     let left = directory.path().join(".motion-rtl-x.part");
     fs::write(&left, "").unwrap();
@@ -324,14 +324,14 @@ fn claims_that_were_left_are_in_nobodys_way() {
     assert_eq!(clear(directory.path()), [left]);
 }
 
-/// Leaves a claim as a run does that is killed; one that somebody has stays as it is.
+/// Leaves a claim as a killed run does; a held claim stays as it is.
 fn leave_claim(directory: &Path) {
     let path = directory.join(".motion-rtl-a.lock");
     let mut options = fs::File::options();
     let _ = options.write(true).create(true).truncate(false).open(path);
 }
 
-/// Whoever clears a directory never stands in for a writer.
+/// Clearing a directory never counts as writing.
 #[test]
 fn who_clears_away_is_no_writer() {
     let directory = tempfile::tempdir().unwrap();
@@ -354,7 +354,7 @@ fn who_clears_away_is_no_writer() {
     });
 }
 
-/// However many claim a stem and clear the directory, one of them has it.
+/// However many threads claim a stem and clear the directory, one of them has the claim.
 #[test]
 fn a_claim_is_never_held_twice() {
     let directory = tempfile::tempdir().unwrap();
@@ -380,7 +380,7 @@ fn a_claim_is_never_held_twice() {
     assert!(names(directory.path()).is_empty());
 }
 
-/// Two files of one name in turn: only the one that is held gets a second name.
+/// Two files of one name in turn: only the one that is open gets a second name.
 #[test]
 fn a_file_that_is_replaced_meanwhile_gets_no_second_name() {
     let directory = tempfile::tempdir().unwrap();
@@ -395,7 +395,7 @@ fn a_file_that_is_replaced_meanwhile_gets_no_second_name() {
     assert_eq!(fs::read_to_string(second).unwrap(), "new");
 }
 
-/// What a run makes before it has locked it is left only when it is old.
+/// A file that a run has made but not locked yet is left over only when it is old.
 #[test]
 fn what_is_too_young_to_be_locked_stays() {
     let directory = tempfile::tempdir().unwrap();

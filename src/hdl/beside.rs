@@ -1,23 +1,23 @@
-//! What stands beside a circuit in its waves.
+//! Signals shown in the waves beside a circuit.
 
 use super::{Circuit, Observer, Record, RunError, Sample, View};
 use super::{Field, Role};
 use std::ops::ControlFlow;
 
-/// Signals that stand in the waves beside a circuit without being part of it: what a motor does,
-/// say.
+/// Signals that are shown in the waves beside a circuit without being part of it, such as the
+/// motion of a motor.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not stand beside a circuit",
     note = "implement `Beside` with the scope of its signals and a record from `signals!`"
 )]
 pub trait Beside: Clone + Send + Sync + 'static {
-    /// The scope they stand in.
+    /// Scope of the signals in the waves.
     const SCOPE: &'static str;
-    /// They.
+    /// Record of the signals.
     type Signals<V: View>: Record<Self, V>;
 }
 
-/// What holds of the scope of the signals beside a circuit.
+/// Returns the field that describes the scope of the signals beside a circuit.
 pub(super) const fn scope<B: Beside>() -> Field {
     Field {
         role: Some(Role::Input),
@@ -25,7 +25,7 @@ pub(super) const fn scope<B: Beside>() -> Field {
     }
 }
 
-/// An observer of a circuit that sees it without what stands beside it.
+/// Observer of a circuit that hides the signals beside it from the inner observer.
 #[derive(Debug)]
 pub struct Without<O>(pub O);
 

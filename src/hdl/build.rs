@@ -1,4 +1,4 @@
-//! The module that is being made, and how nodes get into it.
+//! The module under construction, and the functions that add nodes to it.
 
 use super::mistake::{Mistake, Wrong};
 use super::record::{BIT, MemoryShape, Site};
@@ -13,7 +13,7 @@ use std::panic::Location;
 
 pub use crate::hdl::netlist::Id;
 
-/// Everything that is being made: a circuit makes the modules inside it on its way.
+/// All modules under construction: a circuit builds the modules inside it while its `tick` runs.
 #[derive(Default)]
 pub(super) struct Elaboration {
     /// The circuits whose `tick` is running, outermost first.
@@ -26,67 +26,68 @@ thread_local! {
     static ELABORATION: RefCell<Elaboration> = RefCell::default();
 }
 
-/// One module being made.
+/// Module under construction.
 #[derive(Default)]
 pub(super) struct Builder {
-    /// The names of the circuit and of the instances around it.
+    /// Instance path of the circuit, joined by dots.
     pub path: String,
-    /// Where the circuit's records are declared.
+    /// Declaration site of the circuit's records.
     pub site: Option<Site>,
     pub nodes: Vec<(Node, Shape)>,
-    /// Where each was made.
+    /// Source location that created each node.
     pub sites: Vec<Site>,
     pub known: FxHashMap<(Node, Shape), Id>,
     pub signals: Vec<Signal>,
-    /// Parameters and their values.
+    /// Parameters with their values.
     pub parameters: Vec<(Parameter, u64)>,
     pub memories: Vec<Memory>,
     pub shapes: Vec<MemoryShape>,
-    /// For every memory that belongs to an instance, the instance and the memory there.
+    /// Owner of each memory that belongs to an instance: the instance, and the memory inside it.
     pub owners: Vec<Option<(usize, usize)>>,
-    /// What each memory holds.
+    /// Power-on contents of each memory.
     pub contents: Vec<Vec<u64>>,
     pub registers: Vec<Register>,
-    /// How many of the registers are the circuit's own; they come first.
+    /// Number of the circuit's own registers; they come first.
     pub own: usize,
-    /// The scope that was entered last, while parts are declared.
+    /// Scope entered last, while parts are declared.
     pub scope: String,
-    /// Registers that come into being are those of a part.
+    /// True while the registers being declared belong to a part.
     pub of_part: bool,
-    /// A port in, register or memory of its own cannot be made.
+    /// True if one of the circuit's own input ports, registers or memories has an impossible
+    /// shape.
     pub unmade: bool,
     pub parts: Vec<Declared>,
     pub instances: Vec<Instance>,
     pub assertions: Vec<Assertion>,
-    /// ROMs, by memory.
+    /// Indices of the ROMs among the memories.
     pub roms: Vec<usize>,
 }
 
-/// A circuit inside the one that is being made.
+/// Declared part of the circuit under construction.
 pub(super) struct Declared {
     pub name: String,
-    /// Its place in the walk over the registers.
+    /// Range of the part's leaves in the walk over the registers.
     pub registers: std::ops::Range<usize>,
-    /// The instance, once it is settled.
+    /// Index of the instance, once the part is settled.
     pub instance: Option<usize>,
 }
 
-/// An instance.
+/// Settled part.
 pub(super) struct Instance {
     pub child: Child,
     pub settings: Vec<Setting>,
-    /// The nodes of its nets here.
+    /// Nodes that carry the instance's nets in this module.
     pub ports: Vec<Id>,
     pub site: Site,
 }
 
-/// Works on what is being made.
+/// Runs `work` on the modules under construction of this thread.
 pub(super) fn elaboration<R>(work: impl FnOnce(&mut Elaboration) -> R) -> R {
     ELABORATION.with(|elaboration| work(&mut elaboration.borrow_mut()))
 }
 
-/// Works on the module being made. Words that are made outside of any circuit go to one that
-/// nobody asks for.
+/// Runs `work` on the module under construction. Words made outside any circuit go to a module
+/// that is thrown away.
 pub(super) fn builder<R>(work: impl FnOnce(&mut Builder) -> R) -> R {
     elaboration(|elaboration| {
         if elaboration.open.is_empty() {
@@ -97,7 +98,7 @@ pub(super) fn builder<R>(work: impl FnOnce(&mut Builder) -> R) -> R {
     })
 }
 
-/// Something is wrong with the circuit that is being made.
+/// Records a mistake in the module under construction.
 #[inline(never)]
 pub(super) fn mistake(site: Site, what: String) {
     elaboration(|elaboration| {
@@ -110,7 +111,7 @@ pub(super) fn mistake(site: Site, what: String) {
     });
 }
 
-/// All that is wrong, in the order in which it was found, each once.
+/// Returns an error with all mistakes in the order they were found, without duplicates.
 pub(super) fn wrong(mut mistakes: Vec<Mistake>) -> Result<(), Wrong> {
     let mut seen = FxHashSet::default();
     mistakes.retain(|mistake| seen.insert(mistake.clone()));
@@ -120,7 +121,7 @@ pub(super) fn wrong(mut mistakes: Vec<Mistake>) -> Result<(), Wrong> {
     }
 }
 
-/// Where a function was called.
+/// Returns the source location of the caller.
 #[track_caller]
 pub(super) fn here() -> Site {
     Site::from(Location::caller())
@@ -136,7 +137,7 @@ impl From<&'static Location<'static>> for Site {
     }
 }
 
-/// The node that computes this: one that is there already, or a new one.
+/// Returns the node that computes this: an existing one, or a new one.
 #[inline(never)]
 #[track_caller]
 pub(super) fn node(node: Node, shape: Shape) -> Id {
@@ -144,7 +145,7 @@ pub(super) fn node(node: Node, shape: Shape) -> Id {
     builder(|builder| builder.node(node, shape, site))
 }
 
-/// A constant, taken modulo 2^width.
+/// Returns a constant, taken modulo 2^width.
 #[inline(never)]
 #[track_caller]
 pub(super) fn constant(value: u64, shape: Shape) -> Id {
@@ -152,7 +153,7 @@ pub(super) fn constant(value: u64, shape: Shape) -> Id {
     node(Node::Constant(masked(value, shape)), shape)
 }
 
-/// A number as a word of its own; one that does not fit is a mistake.
+/// Returns a number as a constant of its own shape. A number that does not fit is a mistake.
 #[inline(never)]
 #[track_caller]
 pub(super) fn number(value: i128, shape: Shape) -> Id {
@@ -163,7 +164,8 @@ pub(super) fn number(value: i128, shape: Shape) -> Id {
     constant(value as u64, shape)
 }
 
-/// A number beside a word, as wide as that; one that does not fit is a mistake.
+/// Returns a number as a constant of the shape of `beside`. A number that does not fit is a
+/// mistake.
 #[inline(never)]
 #[track_caller]
 pub(super) fn number_beside(value: i128, beside: Id) -> Id {
@@ -175,7 +177,7 @@ pub(super) fn number_beside(value: i128, beside: Id) -> Id {
     constant(value as u64, shape)
 }
 
-/// Checks that a word can hold a number.
+/// Returns an error if a word of this shape cannot hold the number.
 pub(super) fn fits(value: i128, shape: Shape) -> Result<(), String> {
     let (least, greatest) = shape.range();
     match (least..=greatest).contains(&value) {
@@ -187,7 +189,8 @@ pub(super) fn fits(value: i128, shape: Shape) -> Result<(), String> {
     }
 }
 
-/// A shape that a word can have; one that it cannot have is a mistake.
+/// Returns the shape if a word can have it. Otherwise records a mistake and returns the nearest
+/// one.
 #[inline(never)]
 #[track_caller]
 pub(super) fn word(shape: Shape, what: &str) -> Shape {
@@ -200,7 +203,7 @@ pub(super) fn word(shape: Shape, what: &str) -> Shape {
     }
 }
 
-/// Whether a word can have that shape, or what is wrong with it.
+/// Returns an error if no word can have this shape.
 pub(super) fn is_word(shape: Shape) -> Result<(), String> {
     match shape.width {
         1..=64 => Ok(()),
@@ -208,7 +211,7 @@ pub(super) fn is_word(shape: Shape) -> Result<(), String> {
     }
 }
 
-/// The shape next to it that a word can have.
+/// Returns the nearest shape that a word can have.
 pub(super) fn nearest(shape: Shape) -> Shape {
     Shape {
         width: shape.width.clamp(1, 64),
@@ -216,13 +219,13 @@ pub(super) fn nearest(shape: Shape) -> Shape {
     }
 }
 
-/// Kind and width of a node.
+/// Returns kind and width of a node.
 #[inline(never)]
 pub(super) fn shape(id: Id) -> Shape {
     builder(|builder| builder.shape(id))
 }
 
-/// Words and width of a memory.
+/// Returns number of words and width of a memory.
 #[inline(never)]
 pub(super) fn memory_shape(memory: usize) -> MemoryShape {
     builder(|builder| {
@@ -234,8 +237,8 @@ pub(super) fn memory_shape(memory: usize) -> MemoryShape {
     })
 }
 
-/// The node where it has the width that is wanted; otherwise that is a mistake, and it is cut or
-/// extended.
+/// Returns the node if it has the wanted width. Otherwise records a mistake, and cuts or extends
+/// the node.
 #[inline(never)]
 #[track_caller]
 pub(super) fn fit(id: Id, wanted: Shape, what: &str) -> Id {
@@ -252,7 +255,7 @@ pub(super) fn fit(id: Id, wanted: Shape, what: &str) -> Id {
     resize(id, wanted)
 }
 
-/// So many bits, in words.
+/// Formats a number of bits with its unit.
 pub(super) fn bits(width: usize) -> String {
     match width {
         1 => "1 bit".to_owned(),
@@ -260,7 +263,7 @@ pub(super) fn bits(width: usize) -> String {
     }
 }
 
-/// Extended or cut to another width.
+/// Extends or cuts a node to another width.
 #[inline(never)]
 #[track_caller]
 pub(super) fn resize(of: Id, to: Shape) -> Id {
@@ -271,7 +274,7 @@ pub(super) fn resize(of: Id, to: Shape) -> Id {
     }
 }
 
-/// A parameter: the one of that name, or a new one.
+/// Returns the parameter of that name, or adds it.
 #[inline(never)]
 #[track_caller]
 pub(super) fn parameter(name: &'static str, value: u64, shape: Shape) -> Id {
@@ -292,7 +295,7 @@ pub(super) fn parameter(name: &'static str, value: u64, shape: Shape) -> Id {
     node(Node::Parameter(index), shape)
 }
 
-/// The ROM with these words.
+/// Returns the ROM with these words, or adds it.
 pub(super) fn rom(width: usize, words: Vec<u64>) -> usize {
     builder(|builder| {
         let same = |&&memory: &&usize| {
@@ -330,7 +333,7 @@ pub(super) fn masked(value: u64, shape: Shape) -> u64 {
     value & (u64::MAX >> (64 - shape.width.clamp(1, 64)))
 }
 
-/// The scopes that are no instances, and a name below them.
+/// Joins the scopes that are no instances with the name below them.
 pub(super) fn flat(scopes: &[String], name: &str) -> String {
     scopes
         .iter()
@@ -344,7 +347,7 @@ impl Builder {
         self.nodes.get(id).map_or(BIT, |(_, shape)| *shape)
     }
 
-    /// A node by name where it has one, as a reader of the circuit would call it.
+    /// Returns the name of a node as a reader of the circuit knows it.
     pub fn describe(&self, id: Id) -> String {
         match self.nodes.get(id).map(|(node, _)| *node) {
             Some(Node::Signal(signal)) => match self.signals.get(signal) {
@@ -377,7 +380,7 @@ impl Builder {
         }
     }
 
-    /// The name of a memory.
+    /// Returns the name of a memory.
     pub fn memory_name(&self, memory: usize) -> &str {
         self.memories.get(memory).map_or("", |memory| &memory.name)
     }
@@ -401,8 +404,8 @@ impl Builder {
         })
     }
 
-    /// What is written more simply: choices between the same, operations with constant bits,
-    /// conversions that change nothing, conversions of constants.
+    /// Returns a simpler node, if there is one: for choices between equal words, operations with
+    /// constant bits, conversions without effect, conversions of constants.
     fn simpler(&mut self, node: Node, shape: Shape, site: Site) -> Option<Id> {
         match node {
             Node::Mux(choose, then, other) => match self.bits(choose) {
@@ -470,7 +473,7 @@ impl Builder {
         }
     }
 
-    /// Where the circuit is declared.
+    /// Returns the location of the circuit's declaration.
     pub fn site(&self) -> Site {
         self.site.unwrap_or(Site {
             file: "",
@@ -479,7 +482,8 @@ impl Builder {
         })
     }
 
-    /// Where a node was made; an input or register, where its circuit is declared.
+    /// Returns the location of a node. For an input or register, that is its circuit's
+    /// declaration.
     pub fn site_of(&self, id: Id) -> Site {
         match self.nodes.get(id) {
             Some((Node::Signal(_) | Node::Port { .. }, _)) | None => self.site(),
@@ -487,14 +491,14 @@ impl Builder {
         }
     }
 
-    /// Adds a signal.
+    /// Adds a signal and returns its index.
     pub fn signal(&mut self, signal: Signal) -> usize {
         self.signals.push(signal);
         self.signals.len() - 1
     }
 }
 
-/// A signal without what drives it.
+/// Returns a signal without a driver.
 pub(super) fn signal(
     name: String,
     field: &'static crate::hdl::Field,
@@ -512,7 +516,7 @@ pub(super) fn signal(
     }
 }
 
-/// Something under way, put aside for another: a thread may be in the middle of an elaboration.
+/// Elaboration that is set aside while another one runs on the same thread.
 pub(super) struct Aside(Option<Elaboration>);
 
 impl Aside {
@@ -520,7 +524,7 @@ impl Aside {
         Aside(Some(elaboration(mem::take)))
     }
 
-    /// What was made meanwhile.
+    /// Restores the outer elaboration and returns the inner one.
     pub fn end(mut self) -> Elaboration {
         let outer = self.0.take().unwrap_or_default();
         elaboration(|elaboration| mem::replace(elaboration, outer))
@@ -528,7 +532,7 @@ impl Aside {
 }
 
 impl Drop for Aside {
-    // Where a circuit's own code panics, nothing of it stays behind.
+    // If a circuit's own code panics, its modules are dropped.
     fn drop(&mut self) {
         if let Some(outer) = self.0.take() {
             elaboration(|elaboration| *elaboration = outer);

@@ -1,23 +1,24 @@
-//! What a circuit costs, counted in its netlist.
+//! Size of a circuit, counted in its netlist.
 
 use super::Model;
 use crate::engine::{Op, passes};
 
-/// Arithmetic and storage of a circuit, without what nothing reads.
+/// Arithmetic and storage of a circuit, without dead nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Cost {
-    /// Adders, subtractors and comparators by size; not those for equality, which have no carry.
+    /// Number of adders, subtractors and `<` comparators. Comparators for equality do not count:
+    /// they have no carry.
     pub adders: u64,
-    /// The bits of all their operands.
+    /// Sum of all their operand widths in bits.
     pub adder_bits: u64,
-    /// Bits of flip-flops.
+    /// Number of flip-flops in bits.
     pub register_bits: u64,
-    /// Bits of memories.
+    /// Number of memory bits.
     pub memory_bits: u64,
 }
 
 impl Model {
-    /// What it costs.
+    /// Counts arithmetic and storage of the circuit.
     pub fn cost(&self) -> Cost {
         let flat = self.flat();
         let mut seen = vec![false; flat.leaves.len()];

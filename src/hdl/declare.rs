@@ -5,32 +5,33 @@ use super::record::unsigned;
 use super::signal::{Field, Role, Shape};
 use std::sync::Arc;
 
-/// Where a walk is: the scopes around the next leaf and the part of the circuit it belongs to.
+/// Position of a walk: the scopes around the next leaf, and the part of the circuit that the leaf
+/// belongs to.
 ///
 /// Keep one in a [`Source`](super::Source) or [`Sink`](super::Sink) and pass it every `enter`, `leave` and
 /// `element`.
 #[derive(Debug, Clone, Default)]
 pub struct Path {
     scopes: Vec<String>,
-    /// For every struct entered.
+    /// Saved state of each struct entered.
     entered: Vec<Around>,
     role: Option<Role>,
-    /// Scopes up to and with that of the circuit it is in.
+    /// Number of scopes, up to and including the scope of the current circuit.
     circuit: usize,
     element: Option<usize>,
 }
 
-/// State of a walk before a struct was entered.
+/// Saved state of a walk from before a struct was entered.
 #[derive(Debug, Clone)]
 struct Around {
-    /// The struct added a scope.
+    /// True if the struct added a scope.
     scoped: bool,
     role: Option<Role>,
     circuit: usize,
 }
 
 impl Path {
-    /// A struct begins.
+    /// Enters a struct.
     pub fn enter(&mut self, field: &'static Field) {
         self.entered.push(Around {
             scoped: !field.name.is_empty(),
@@ -47,7 +48,7 @@ impl Path {
         }
     }
 
-    /// The struct entered last ends.
+    /// Leaves the struct entered last.
     pub fn leave(&mut self) {
         if let Some(around) = self.entered.pop() {
             (self.role, self.circuit) = (around.role, around.circuit);
@@ -57,12 +58,12 @@ impl Path {
         }
     }
 
-    /// What comes next is element `index` of an array.
+    /// Marks the next leaf or struct as element `index` of an array.
     pub fn element(&mut self, index: usize) {
         self.element = Some(index);
     }
 
-    /// The name of the leaf or scope that comes now.
+    /// Returns the name of the next leaf or scope.
     pub fn name(&mut self, field: &'static Field) -> String {
         match self.element.take() {
             Some(index) => field.element(index).into_owned(),
@@ -70,17 +71,17 @@ impl Path {
         }
     }
 
-    /// The scopes around it, outermost first.
+    /// Returns the scopes around the next leaf, outermost first.
     pub fn scopes(&self) -> &[String] {
         &self.scopes
     }
 
-    /// The part of the circuit it belongs to.
+    /// Returns the role of the next leaf in its own circuit.
     pub fn role(&self) -> Role {
         self.role.unwrap_or(Role::Net)
     }
 
-    /// The part of the outermost circuit that it is among.
+    /// Returns the role of the next leaf in the outermost circuit.
     fn outermost_role(&self) -> Role {
         let around = self.entered.iter().find_map(|around| around.role);
         around.unwrap_or(self.role())
@@ -90,32 +91,32 @@ impl Path {
 /// One leaf of a walk, without its value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Declaration {
-    /// The scopes around it, outermost first; words of a memory share them.
+    /// Scopes around the leaf, outermost first; words of a memory share them.
     pub scopes: Arc<[String]>,
-    /// Its name in the innermost scope.
+    /// Name in the innermost scope.
     pub name: String,
-    /// Port in, register or net.
+    /// Input port, register or net.
     pub role: Role,
     /// Kind and width.
     pub shape: Shape,
-    /// Its bits at power-on, with every port in low.
+    /// Bits at power-on, with all input ports low.
     pub power_on: u64,
-    /// What `signals!` says of it.
+    /// Declaration in `signals!`.
     pub field: &'static Field,
-    /// The part of the whole circuit that it is among.
+    /// Role in the outermost circuit.
     pub(crate) part: Role,
-    /// How many of the scopes there are up to that of its own circuit; the others are bundles and
+    /// Number of scopes up to that of the leaf's own circuit; the scopes after it are bundles and
     /// memories.
     pub(crate) circuit: usize,
 }
 
 impl Declaration {
-    /// True if its own circuit has it as a port out.
+    /// True if the leaf is an output port of its own circuit.
     pub(crate) fn is_port_out(&self) -> bool {
         self.role != Role::Input && self.field.public
     }
 
-    /// Scopes and name joined by dots.
+    /// Returns scopes and name joined by dots.
     pub fn path(&self) -> String {
         let mut path = self.scopes.join(".");
         if !path.is_empty() {
@@ -124,47 +125,47 @@ impl Declaration {
         path + &self.name
     }
 
-    /// Scopes and name, outermost first.
+    /// Returns scopes and name, outermost first.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.scopes.iter().chain([&self.name]).map(String::as_str)
     }
 }
 
-/// A memory of a walk; its words are leaves.
+/// Memory of a walk; its words are leaves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemoryDeclaration {
-    /// The scopes around it, outermost first.
+    /// Scopes around the memory, outermost first.
     pub scopes: Vec<String>,
-    /// Its name in the innermost scope, and the scope of its words.
+    /// Name in the innermost scope, which is also the scope of the words.
     pub name: String,
-    /// The leaf that is its first word.
+    /// Leaf that is the first word.
     pub first: usize,
-    /// The number of its words.
+    /// Number of words.
     pub words: usize,
     /// Width of a word in bits.
     pub width: usize,
-    /// What `signals!` says of it.
+    /// Declaration in `signals!`.
     pub field: &'static Field,
 }
 
-/// Every leaf of a walk, in its order.
+/// All leaves of a walk, in its order.
 #[derive(Debug, Clone, Default)]
 pub struct Declarations {
-    /// The leaves; the index is a leaf's identity.
+    /// Leaves; the index identifies a leaf.
     pub leaves: Vec<Declaration>,
-    /// The memories, in the order of their first words.
+    /// Memories, ordered by their first word.
     pub memories: Vec<MemoryDeclaration>,
     path: Path,
 }
 
 impl Declarations {
-    /// The signals of a circuit, in the order of its leaves. What they are at power-on is left at 0; a
-    /// [`Model`](super::Model) knows it.
+    /// Returns the signals of a circuit, in the order of its leaves. Power-on values are left at
+    /// 0; a [`Model`](super::Model) has them.
     pub fn of<C: Circuit>(circuit: &C) -> Self {
         super::declarations(circuit, &mut |_| {})
     }
 
-    /// None, in a scope of that name.
+    /// Returns an empty list whose leaves will be in the scope `scope`.
     pub(crate) fn within(scope: &str) -> Self {
         Declarations {
             path: Path {
@@ -175,25 +176,26 @@ impl Declarations {
         }
     }
 
-    /// How many of the leaves are ports in, the first ones.
+    /// Returns the number of leaves that are input ports; they come first.
     pub fn inputs(&self) -> usize {
         self.before(Role::Register)
     }
 
-    /// How many are ports in or registers.
+    /// Returns the number of leaves that come before those of `role` in the outermost circuit.
     pub(crate) fn before(&self, role: Role) -> usize {
         let order = |role| match role {
             Role::Input => 0,
             Role::Register => 1,
             Role::Net => 2,
         };
-        // Parts within have ports in of their own among the nets.
+        // Input ports of parts are among the nets.
         let outer = |place: &Declaration| order(place.part) < order(role);
         self.leaves.iter().take_while(|leaf| outer(leaf)).count()
     }
 
-    /// The circuit's own leaves, those of its blocks and the words of its memories left out: their
-    /// indices, and their names from the circuit's scope. What stands in a bundle is its own.
+    /// Returns index and name of the circuit's own leaves, without those of its parts and the
+    /// words of its memories. Names start below the circuit's scope. Signals in a bundle are
+    /// included.
     pub fn own(&self) -> Vec<(usize, String)> {
         let name = |(index, leaf): (usize, &Declaration)| match &leaf.scopes[..] {
             [_] => Some((index, leaf.name.clone())),
@@ -205,8 +207,8 @@ impl Declarations {
         self.leaves.iter().enumerate().filter_map(name).collect()
     }
 
-    /// True if a signal stands in a struct that is neither a memory nor a block, whose signals of
-    /// other roles would stand beside it.
+    /// True if a signal is in a bundle: a struct that is neither a memory nor a part. Beside the
+    /// signals of a part there are signals of other roles.
     fn is_bundled(&self, index: usize) -> bool {
         let leaf = &self.leaves[index];
         let is_word = |memory: &MemoryDeclaration| {
@@ -219,17 +221,17 @@ impl Declarations {
     }
 }
 
-/// Sees what the signals of a circuit are, without their values.
+/// Receiver of a circuit's signals without their values.
 pub(crate) trait Outline {
-    /// A struct begins.
+    /// Enters a struct.
     fn enter(&mut self, field: &'static Field);
-    /// The struct entered last ends.
+    /// Leaves the struct entered last.
     fn leave(&mut self);
-    /// What comes next is element `index` of an array.
+    /// Marks the next leaf or struct as element `index` of an array.
     fn element(&mut self, index: usize);
-    /// A leaf.
+    /// Receives a leaf.
     fn leaf(&mut self, field: &'static Field, shape: Shape);
-    /// A memory of so many words, each of which is called `label`.
+    /// Receives a memory of `words` words, each named after `label`.
     fn memory(&mut self, field: &'static Field, label: &'static Field, words: usize, width: usize);
 }
 

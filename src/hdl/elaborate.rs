@@ -1,5 +1,5 @@
-//! Runs a circuit's `tick` once and notes what it computes. Circuits inside it become modules of
-//! their own.
+//! Elaboration: runs a circuit's `tick` once and records what it computes. Circuits inside it
+//! become modules of their own.
 
 use super::build::{self, Aside, Builder, builder, elaboration, mistake, signal};
 use super::leaves::Leaves;
@@ -16,28 +16,28 @@ use super::{Circuit, More, Nothing, Role};
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// The netlist of a circuit and of those inside it, with its power-on values.
+/// Elaborates a circuit: its netlist, those of the circuits inside it, and the power-on values.
 ///
 /// # Errors
-/// All that is wrong with it, each with file, line and column.
+/// Returns all mistakes of the circuit, each with file, line and column.
 pub fn elaborate<C: Circuit>(circuit: &C) -> Result<Design, Wrong> {
     with_inputs(circuit, &mut |_| {})
 }
 
-/// The same with ports in of the whole that it does not look at.
+/// Elaborates a circuit that has additional input ports which its `tick` does not read.
 pub(crate) fn with_inputs<C: Circuit>(circuit: &C, more: More<'_>) -> Result<Design, Wrong> {
     whole(&mut || circuit.make_module(circuit.name().to_owned(), more))
 }
 
-// What does not depend on the circuit's type is not made for each.
+// Code that does not depend on the circuit's type is compiled once.
 
-/// Makes the module of a whole circuit.
+/// Builds the module of the outermost circuit.
 fn whole(make: &mut dyn FnMut() -> (usize, Vec<Setting>)) -> Result<Design, Wrong> {
     let aside = Aside::begin();
     let settings = match catch_unwind(AssertUnwindSafe(make)) {
         Ok((_, settings)) => settings,
         Err(panic) => {
-            // The circuit's own arithmetic on widths, say.
+            // For example the circuit's own arithmetic on widths.
             let what = panic.downcast_ref::<String>().cloned();
             let what = what.or_else(|| panic.downcast_ref::<&str>().map(|&what| what.to_owned()));
             let what = what.unwrap_or_else(|| "for no reason given".to_owned());
@@ -59,8 +59,8 @@ fn whole(make: &mut dyn FnMut() -> (usize, Vec<Setting>)) -> Result<Design, Wron
     })
 }
 
-/// Makes the module of a circuit, with ports in that it does not look at; returns its number and its
-/// settings.
+/// Builds the module of a circuit, with input ports that it does not read. Returns index and
+/// settings of the module.
 pub fn module<C: Circuit>(circuit: &C, path: String, more: More<'_>) -> (usize, Vec<Setting>) {
     let site = declared([
         <C::In<Wire> as Walk<Wire>>::SITE,
@@ -79,7 +79,7 @@ pub fn module<C: Circuit>(circuit: &C, path: String, more: More<'_>) -> (usize, 
     end(circuit.name(), circuit.about(), nets)
 }
 
-/// Where a circuit with these records is declared: the first of them that is its own.
+/// Returns the declaration site of a circuit: that of the first record that is its own.
 #[inline(never)]
 fn declared(records: [Site; 4]) -> Site {
     let nothing = <Nothing as Walk<Wire>>::SITE;
@@ -87,7 +87,7 @@ fn declared(records: [Site; 4]) -> Site {
     own.next().unwrap_or(nothing)
 }
 
-/// A module begins, inside the one that is being made.
+/// Begins a module inside the one under construction.
 #[inline(never)]
 fn begin(path: String, site: Site) {
     elaboration(|elaboration| {
@@ -99,14 +99,14 @@ fn begin(path: String, site: Site) {
     });
 }
 
-/// It ends; returns its number and its settings.
+/// Ends the module; returns its index and its settings.
 #[inline(never)]
 fn end(name: &str, about: &'static str, nets: Nets) -> (usize, Vec<Setting>) {
     elaboration(|elaboration| {
         let builder = elaboration.open.pop().unwrap_or_default();
         let (path, sites) = (builder.path.clone(), builder.instance_sites());
         let (module, settings) = builder.finish(name, about, nets);
-        // Of a part with mistakes it is not known what its ports are.
+        // The ports of a part with mistakes are unknown.
         let hidden = match elaboration.mistakes.is_empty() {
             true => module.hidden(&elaboration.modules),
             false => Vec::new(),
@@ -126,13 +126,13 @@ fn end(name: &str, about: &'static str, nets: Nets) -> (usize, Vec<Setting>) {
     })
 }
 
-/// Makes the signals of a circuit, what drives them, and the circuits inside.
+/// Builds the signals of a circuit, their drivers, and the circuits inside.
 fn signals_of<C: Circuit>(circuit: &C, site: Site, more: More<'_>) -> Nets {
     let i: C::In<Wire> = C::In::make(circuit, view::role(Role::Input), &mut Leaves::default());
     more(&mut Leaves::default());
     let q: C::Reg<Wire> = C::Reg::make(circuit, view::role(Role::Register), &mut Leaves::default());
     own_registers();
-    // What a tick makes of words that are none is no use.
+    // Words of an impossible shape make the result of `tick` useless.
     if builder(|builder| builder.unmade) {
         return low(&counted_nets(circuit));
     }
@@ -158,7 +158,7 @@ fn signals_of<C: Circuit>(circuit: &C, site: Site, more: More<'_>) -> Nets {
     nets
 }
 
-/// The registers made so far are the circuit's own.
+/// Marks the registers made so far as the circuit's own.
 #[inline(never)]
 fn own_registers() {
     builder(|builder| builder.own = builder.registers.len());
@@ -170,7 +170,7 @@ fn counted_nets<C: Circuit>(circuit: &C) -> Counted {
     wanted
 }
 
-/// Nets that are all low, of a circuit that cannot be elaborated.
+/// Returns nets that are all low, for a circuit that cannot be elaborated.
 fn low(wanted: &Counted) -> Nets {
     let nodes = wanted.low();
     Nets {
@@ -179,7 +179,7 @@ fn low(wanted: &Counted) -> Nets {
     }
 }
 
-/// Parts that were never settled.
+/// Records a mistake for each part that was never settled.
 fn unsettled(site: Site) {
     let names: Vec<String> = builder(|builder| {
         let parts = builder.parts.iter();
@@ -191,8 +191,8 @@ fn unsettled(site: Site) {
     }
 }
 
-/// The leaves of the walk over the nets: for each the signal, if it is not one of an instance, and
-/// the node that it shows.
+/// Leaves of the walk over the nets: the signal, unless it belongs to an instance, and the node
+/// that it shows.
 #[derive(Default)]
 pub(super) struct Nets {
     pub leaves: Vec<Option<usize>>,
@@ -226,7 +226,7 @@ fn nets(wanted: Counted, given: Counted, site: Site) -> Nets {
     nets
 }
 
-/// What the edge makes of registers and memories.
+/// Connects registers and memories to their values after the edge.
 fn drive(wanted: &Counted, given: Counted, site: Site) {
     let nodes = pair(&given, wanted, site, "register");
     let mistakes: Vec<String> = builder(|builder| {
@@ -252,7 +252,7 @@ fn drive(wanted: &Counted, given: Counted, site: Site) {
 }
 
 impl Builder {
-    /// Takes over how a memory is written.
+    /// Sets the write port of a memory.
     fn write(&mut self, memory: usize, written: Written) -> Result<(), String> {
         let name = |memory: usize| match self.memories.get(memory) {
             Some(memory) => memory.name.clone(),
@@ -285,7 +285,7 @@ impl Builder {
         Ok(())
     }
 
-    /// Gives registers to the instance whose they are.
+    /// Assigns registers to the instance that owns them.
     pub(super) fn claim(&mut self, instance: usize, registers: Range<usize>, inside: &[Register]) {
         for (register, inner) in self.registers[registers].iter().zip(inside) {
             match (register, inner) {
@@ -302,7 +302,7 @@ impl Builder {
         }
     }
 
-    /// The instances and where each was settled.
+    /// Returns the instances with the location of each `settle`.
     fn instance_sites(&self) -> Vec<(String, Site)> {
         let sites = self.instances.iter();
         sites
@@ -310,7 +310,7 @@ impl Builder {
             .collect()
     }
 
-    /// The module, its parameters and what its memories hold at power-on.
+    /// Returns the module, its parameters and the power-on contents of its memories.
     fn finish(mut self, name: &str, about: &'static str, nets: Nets) -> (Module, Vec<Setting>) {
         let settings = self.settings();
         self.owners.resize(self.memories.len(), None);
@@ -339,7 +339,7 @@ impl Builder {
         (module, settings)
     }
 
-    /// Parameters and contents of memories, those of instances under their names.
+    /// Returns parameters and memory contents; those of instances under their names.
     fn settings(&mut self) -> Vec<Setting> {
         let parameters = self.parameters.iter().map(|(parameter, value)| Setting {
             path: vec![parameter.name.to_owned()],
@@ -364,7 +364,7 @@ impl Builder {
     }
 }
 
-/// Whether a memory has contents, in this instance of its module or in another.
+/// True if a memory has contents in any instance of its module.
 fn is_filled(modules: &[Module], path: &[String]) -> bool {
     let mut module = modules.last();
     let Some((name, instances)) = path.split_last() else {

@@ -1,6 +1,6 @@
-//! Names that Verilog does not take.
+//! Names that Verilog reserves.
 
-/// Words that are no names in Verilog-2001 or SystemVerilog, or that the export needs itself.
+/// Words that cannot be names in Verilog-2001 or SystemVerilog, or that the export uses itself.
 const KEYWORDS: &str = "\
     accept_on alias always always_comb always_ff always_latch and assert assign assume automatic \
     before begin bind bins binsof bit break buf bufif0 bufif1 byte case casex casez cell chandle \
@@ -26,7 +26,7 @@ const KEYWORDS: &str = "\
     use uwire var vectored virtual void wait wait_order wand weak weak0 weak1 while wildcard wire \
     with within wor xnor xor _unused";
 
-/// True if nothing in a module can have this name.
+/// True if no signal of a module can have this name.
 pub(super) fn is_reserved(name: &str) -> bool {
     KEYWORDS.split_ascii_whitespace().any(|word| word == name)
 }

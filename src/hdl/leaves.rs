@@ -1,4 +1,4 @@
-//! How the leaves of a circuit's records become nodes.
+//! Conversion of the leaves of a circuit's records into nodes.
 
 use super::build::{self, builder, flat, masked, mistake, node, signal};
 use super::memory::Contents;
@@ -6,34 +6,34 @@ use super::netlist::{Id, Memory, Node, Port, Register};
 use super::record::{Cells, MemoryShape, Source};
 use super::{Field, Path, Role, Shape};
 
-/// Makes inputs and registers.
+/// Source that creates input ports and registers.
 #[derive(Default)]
 pub(super) struct Leaves {
     path: Path,
 }
 
 impl Leaves {
-    /// Tells scopes to who declares parts.
+    /// Passes the current scopes on to the declaration of parts.
     fn scoped(&self) {
         let scope = self.path.scopes().join("_");
         builder(|builder| builder.scope = scope);
     }
 
-    /// The name of the leaf that comes now in its module.
+    /// Returns the name of the next leaf in its module.
     fn name(&mut self, field: &'static Field) -> String {
         let name = self.path.name(field);
         flat(self.path.scopes(), &name)
     }
 }
 
-/// Something is wrong with a leaf; of a part it is told where that is elaborated.
+/// Records a mistake of a leaf. Mistakes of a part are reported when that part is elaborated.
 fn object(what: String) {
     if let (site, false) = builder(|builder| (builder.site(), builder.of_part)) {
         mistake(site, what);
     }
 }
 
-/// A leaf cannot be made, so that what a tick makes of it is of no use.
+/// Records a leaf of an impossible shape, which makes the result of `tick` useless.
 fn unmade(what: String) {
     object(what);
     builder(|builder| builder.unmade |= !builder.of_part);
@@ -141,14 +141,14 @@ impl Source for Leaves {
     }
 }
 
-/// Words that are nodes already, one after the other.
+/// Existing nodes, one after the other.
 pub(crate) struct Nodes<'a>(pub std::slice::Iter<'a, Id>);
 
 impl Source for Nodes<'_> {
     fn word(&mut self, _: &'static Field, shape: Shape, _: i128) -> u64 {
         match self.0.next() {
             Some(id) => *id as u64,
-            // There are as many as the same walk found.
+            // A walk has as many leaves as there are nodes.
             None => node(Node::Constant(0), shape) as u64,
         }
     }

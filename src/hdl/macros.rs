@@ -1,20 +1,21 @@
-/// Declares records of a circuit's signals: its ports in, flip-flops, nets and parts, or a bundle
-/// that several circuits use. Widths are expressions over the circuit.
+/// Declares records of a circuit's signals: its input ports, flip-flops, nets and parts, or a
+/// bundle that several circuits use. Widths are expressions over the circuit's fields.
 ///
-/// | field | is |
+/// | field | meaning |
 /// |---|---|
 /// | `Bit`, `U(width)`, `I(width)` | a word of 1 to 64 bits |
-/// | `Ram(address_width, data_width)` | a memory; `= &c.image` is what it holds at power-on |
+/// | `Ram(address_width, data_width)` | a memory; `= &c.image` gives its power-on contents |
 /// | `Shift(stages, data_width)` | a shift register |
 /// | `[U(c.width); c.count]`, `[U(c.widths[k]); k in c.count]` | an array, a `Vec` |
 /// | `Gains(&c.widths)` | a bundle: a record that is declared for the type of `c.widths`; its signals stand in a scope of its name, `as Flat` without |
 /// | `Part<Counter>(Counter { width: c.width })` | a circuit inside |
 ///
-/// What `for (A, B) as c;` declares belongs to both types, whose fields have the same names.
+/// A record declared `for (A, B) as c;` belongs to both types; both need the fields that the
+/// widths read.
 ///
-/// A field may carry how it is meant to be looked at (`as Hex`, `as Analog`, `as States(NAMES)`,
-/// `as Elements(NAMES)`) and a power-on value (`= 1`; 0 where none is given). In a `Reg` or `Net` a
-/// `pub` field is a port out; `pub(crate)` lets proofs and tests look at it without making it a
+/// A field may carry a display format (`as Hex`, `as Analog`, `as States(NAMES)`, `as
+/// Elements(NAMES)`) and a power-on value (`= 1`; 0 by default). In a `Reg` or `Net`, a `pub`
+/// field is an output port. `pub(crate)` shows a field to proofs and tests without making it a
 /// port.
 ///
 /// ```
@@ -67,7 +68,7 @@ macro_rules! hdl_signals {
     };
 }
 
-/// One record of [`hdl_signals`].
+/// Expands one record of [`hdl_signals`].
 #[macro_export]
 #[doc(hidden)]
 macro_rules! hdl_record {
@@ -134,7 +135,7 @@ macro_rules! hdl_record {
     };
 }
 
-/// How one record of [`hdl_signals`] is made for what it belongs to.
+/// Implements one record of [`hdl_signals`] for the type it belongs to.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! hdl_record_for {
@@ -170,7 +171,7 @@ macro_rules! hdl_record_for {
     };
 }
 
-/// The type of a field in a view.
+/// Expands to the type of a field in a view.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! hdl_type {
@@ -186,7 +187,7 @@ macro_rules! hdl_type {
     ($v:ident; $bundle:ident) => { $bundle<$v> };
 }
 
-/// A field made.
+/// Expands to the construction of a field.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! hdl_make {
@@ -260,7 +261,7 @@ macro_rules! hdl_make {
     };
 }
 
-/// A field shown.
+/// Expands to the visit of a field.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! hdl_visit {
@@ -279,7 +280,7 @@ macro_rules! hdl_visit {
     ($v:ident; $sink:ident; $field:expr; ($value:expr); Shift) => {
         $sink.memory($field, <$v as $crate::hdl::View>::of_shift($value))
     };
-    // A circuit inside shows itself where it is settled.
+    // A part shows its leaves where it is settled.
     ($v:ident; $sink:ident; $field:expr; ($value:expr); Part<$($part:ident)::+>) => {
         let _ = $value;
     };
@@ -297,7 +298,7 @@ macro_rules! hdl_visit {
     };
 }
 
-/// The words of a field, one after the other.
+/// Expands to the words of a field, one after the other.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! hdl_words {
@@ -332,7 +333,7 @@ macro_rules! hdl_words {
     };
 }
 
-/// What is known of a field without its value.
+/// Expands to the description of a field without its value.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! hdl_field {
@@ -348,7 +349,7 @@ macro_rules! hdl_field {
                     $( let _ = format; let format = $crate::hdl::Format::$format $(($names))?; )?
                     format
                 },
-                // Exactly `pub`: `pub(crate)` shows a signal to proofs, and makes it no port.
+                // Exactly `pub`: `pub(crate)` shows a signal to proofs without making it a port.
                 public: stringify!($public).len() == 3,
                 ..$crate::hdl::Field::named(stringify!($field))
             }
@@ -356,7 +357,7 @@ macro_rules! hdl_field {
     };
 }
 
-/// What a register holds at power-on.
+/// Expands to the power-on value of a register.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! hdl_power_on {
@@ -368,7 +369,7 @@ macro_rules! hdl_power_on {
     };
 }
 
-/// Names the records of a circuit: ports in, registers, nets and, where it has some, parts.
+/// Names the records of a circuit: input ports, registers, nets and, if it has any, parts.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! hdl_records {
@@ -390,8 +391,9 @@ macro_rules! hdl_records {
     };
 }
 
-/// Declares a choice between circuits, of which one is inside another: an enum of the circuits, and
-/// a record for the `Parts` around it. Its scope is called as its field is, whichever it is.
+/// Declares a choice between circuits, one of which is inside another: an enum of the circuits,
+/// and a record for the surrounding `Parts`. The scope has the name of the field, whichever
+/// circuit is chosen.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! hdl_choice {
@@ -407,7 +409,7 @@ macro_rules! hdl_choice {
             $( $(#[doc = $doc])* $variant($circuit), )*
         }
 
-        /// The one that is inside.
+        /// The chosen circuit.
         $vis enum $part<V: $crate::hdl::View = $crate::hdl::Wire> {
             $( $(#[doc = $doc])* $variant(<V as $crate::hdl::View>::Part<$circuit>), )*
         }
@@ -433,7 +435,7 @@ macro_rules! hdl_choice {
                 column: column!(),
             };
 
-            // A circuit inside shows itself where it is settled.
+            // A part shows its leaves where it is settled.
             fn visit(&self, _: &'static $crate::hdl::Field, _: &mut dyn $crate::hdl::Sink) {}
             fn words(&self, _: &mut ::std::vec::Vec<u64>) {}
         }
@@ -448,7 +450,7 @@ macro_rules! hdl_choice {
     };
 }
 
-/// What a memory holds at power-on.
+/// Expands to the power-on contents of a memory.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! hdl_contents {

@@ -1,13 +1,13 @@
-//! What is made of a circuit's records for who runs it. [`records!`](super::records) writes a method
-//! of the circuit for each, so that it is compiled with the circuit, and not again in every crate
-//! that runs it.
+//! Conversions of a circuit's records for the code that runs it. [`records!`](super::records)
+//! writes a method of the circuit for each, so that they are compiled once, with the circuit, and
+//! not again in every crate that runs it.
 
 pub use super::elaborate::module;
 use super::record::{Record, Source};
 use super::view::{self, Shapes, Value};
 use super::{Circuit, Registers, Role, Signals};
 
-/// Walks over the ports in of a circuit, over all its registers, or over all its nets.
+/// Walks over the input ports of a circuit, over all its registers, or over all its nets.
 pub fn shapes<C: Circuit>(circuit: &C, role: Role, source: &mut dyn Source) {
     match role {
         Role::Input => {
@@ -18,42 +18,43 @@ pub fn shapes<C: Circuit>(circuit: &C, role: Role, source: &mut dyn Source) {
     }
 }
 
-/// Makes the places of all signals.
+/// Returns the places of all signals.
 pub fn places<C: Circuit>(circuit: &C, source: &mut dyn Source) -> Signals<C> {
     let i = C::In::make(circuit, view::role(Role::Input), source);
     let (q, p, w) = view::inner(circuit, source);
     Signals { i, q, w, p }
 }
 
-/// Makes the ports in as numbers.
+/// Returns the input ports as numbers.
 pub fn inputs<C: Circuit>(circuit: &C, source: &mut dyn Source) -> C::In<Value> {
     C::In::make(circuit, view::role(Role::Input), source)
 }
 
-/// Makes a circuit's own registers as numbers.
+/// Returns a circuit's own registers as numbers.
 pub fn registers<C: Circuit>(circuit: &C, source: &mut dyn Source) -> C::Reg<Value> {
     C::Reg::make(circuit, view::role(Role::Register), source)
 }
 
-/// Makes a circuit's own nets as numbers.
+/// Returns a circuit's own nets as numbers.
 pub fn nets<C: Circuit>(circuit: &C, source: &mut dyn Source) -> C::Net<Value> {
     C::Net::make(circuit, view::role(Role::Net), source)
 }
 
-/// Makes the circuits inside as numbers; `source` has the circuit's own registers before them.
+/// Returns the circuits inside as numbers; in `source` the circuit's own registers come before
+/// them.
 pub fn parts<C: Circuit>(circuit: &C, source: &mut dyn Source) -> C::Parts<Value> {
     C::Reg::<Shapes>::make(circuit, view::role(Role::Register), source);
     C::Parts::make(circuit, view::role(Role::Net), source)
 }
 
-/// Makes all registers as numbers.
+/// Returns all registers as numbers.
 pub fn kept<C: Circuit>(circuit: &C, source: &mut dyn Source) -> Registers<C> {
     let q = C::Reg::make(circuit, view::role(Role::Register), source);
     let p = C::Parts::make(circuit, view::role(Role::Register), source);
     Registers { q, p }
 }
 
-/// What is made of a circuit's records, compiled where the circuit is.
+/// Writes those methods of a circuit that are compiled with it.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! hdl_made {

@@ -1,4 +1,4 @@
-//! Memories: handles to them, and what they hold at power-on.
+//! Memories: handles to them, and their power-on contents.
 
 use super::build::{self, Id};
 use super::record::{Cells, MemoryShape, Site, Source, unsigned};
@@ -10,24 +10,25 @@ use std::sync::Arc;
 
 /// A memory with one write port, before the edge.
 ///
-/// A handle: the registers of the next tick take it by value, so what is written cannot be read. A
-/// read in the tick of a write to the same address sees the old word (read-first).
+/// This is a handle: [`write`](Self::write) takes it by value, so the new contents cannot be read
+/// in the same tick. A read in the tick of a write to the same address returns the old word
+/// (read-first).
 #[derive(Debug)]
 pub struct Ram(pub(super) usize);
 
-/// Words in a row before the edge: stage 0 takes the input, stage k what stage k - 1 held. A handle
-/// like [`Ram`].
+/// A shift register before the edge. Stage 0 takes the input, stage k the word of stage k − 1. A
+/// handle like [`Ram`].
 #[derive(Debug)]
 pub struct Shift {
     pub(super) memory: usize,
     pub(super) stages: usize,
 }
 
-/// What an edge does to a memory.
+/// Effect of an edge on a memory.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Written(pub(super) Option<(usize, State)>);
 
-/// How a memory is written.
+/// Kind of write to a memory.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum State {
     Kept,
@@ -36,7 +37,7 @@ pub(super) enum State {
 }
 
 impl Ram {
-    /// The word at `address`, combinationally.
+    /// Reads the word at `address`, combinationally.
     #[track_caller]
     pub fn read(&self, address: U) -> U {
         let shape = build::memory_shape(self.0);
@@ -50,14 +51,14 @@ impl Ram {
         ))
     }
 
-    /// The next value of an output register: the word at `address` where `enable` is high, `held`
-    /// where it is low. This is the form that block RAM has.
+    /// Returns the next value of an output register: the word at `address` if `enable` is high,
+    /// else `held`. Block RAM has this form.
     #[track_caller]
     pub fn read_when(&self, enable: Bit, address: U, held: U) -> U {
         enable.mux(self.read(address), held)
     }
 
-    /// The memory after the edge: `data` at `address` where `enable` is high.
+    /// Writes `data` at `address` if `enable` is high; returns the memory after the edge.
     #[track_caller]
     pub fn write(self, enable: Bit, address: U, data: U) -> Written {
         let shape = build::memory_shape(self.0);
@@ -74,7 +75,7 @@ impl Ram {
         Written(Some((self.0, written)))
     }
 
-    /// The memory as it is.
+    /// Leaves the memory unchanged.
     pub fn keep(self) -> Written {
         Written(Some((self.0, State::Kept)))
     }
@@ -97,12 +98,12 @@ impl Shift {
         ))
     }
 
-    /// How many stages.
+    /// Returns the number of stages.
     pub fn stages(&self) -> usize {
         self.stages
     }
 
-    /// Stage `index` counted from the input, 0 the newest.
+    /// Returns stage `index`, counted from the input; 0 is the newest.
     #[track_caller]
     pub fn stage(&self, index: usize) -> U {
         match index < self.stages {
@@ -119,7 +120,7 @@ impl Shift {
         }
     }
 
-    /// The stage that `tap` names; one that is not there reads zero.
+    /// Returns the stage that `tap` selects; zero if there is no such stage.
     #[track_caller]
     pub fn tap(&self, tap: U) -> U {
         // A single stage has no index.
@@ -127,7 +128,7 @@ impl Shift {
             0 | 1 => self.stage(0),
             _ => self.read(tap.0),
         };
-        // A tap that can name more stages than there are reads zero there.
+        // A tap that can select more stages than there are reads zero for those.
         let stages = self.stages as u64;
         match stages.checked_shr(tap.width() as u32).unwrap_or(0) {
             0 => tap.below(stages).mux(stage, self.zero()),
@@ -135,7 +136,7 @@ impl Shift {
         }
     }
 
-    /// The register after the edge: shifted by one stage where `enable` is high.
+    /// Shifts by one stage if `enable` is high; returns the register after the edge.
     #[track_caller]
     pub fn shift(self, enable: Bit, input: U) -> Written {
         let shape = build::memory_shape(self.memory);
@@ -146,7 +147,7 @@ impl Shift {
         Written(Some((self.memory, shifted)))
     }
 
-    /// The register as it is.
+    /// Leaves the register unchanged.
     pub fn keep(self) -> Written {
         Written(Some((self.memory, State::Kept)))
     }
@@ -157,7 +158,7 @@ pub(crate) static WORD: Field = Field::named("word");
 /// A word of a shift register.
 pub(crate) static STAGE: Field = Field::named("stage");
 
-/// A memory of a record.
+/// Makes the memory of a record.
 #[doc(hidden)]
 pub fn ram(
     source: &mut dyn Source,
@@ -174,7 +175,7 @@ pub fn ram(
     source.memory(field, &WORD, shape, contents)
 }
 
-/// A shift register of a record.
+/// Makes the shift register of a record.
 #[doc(hidden)]
 pub fn shift(
     source: &mut dyn Source,
@@ -189,18 +190,18 @@ pub fn shift(
     source.memory(field, &STAGE, shape, &Contents::default)
 }
 
-/// What a memory holds at power-on: the words of an image, or zeros.
+/// Power-on contents of a memory: the words of an image, or zeros.
 #[derive(Debug, Clone, Default)]
 pub struct Contents(Option<Image>);
 
 impl Contents {
-    /// Those of `image`.
+    /// Returns the contents given by `image`.
     #[doc(hidden)]
     pub fn of(image: &Image) -> Self {
         Contents(Some(image.clone()))
     }
 
-    /// The words, as many and as wide as a memory of that shape has.
+    /// Returns the words, cut or filled with zeros to the size of the memory.
     pub(super) fn words(&self, shape: MemoryShape) -> Vec<u64> {
         let image = self.0.iter().flat_map(Image::iter);
         let mut words: Vec<u64> = image.take(shape.words).collect();
@@ -208,18 +209,18 @@ impl Contents {
         words
     }
 
-    /// Widths of address and word of the image, if there is one.
+    /// Returns address and word width of the image, if there is one.
     pub(super) fn shape(&self) -> Option<(usize, usize)> {
         self.0.as_ref().map(|image| (image.address, image.width))
     }
 
-    /// Values that do not fit the image, and where they were given.
+    /// Returns a message about values that do not fit the image, and where they were given.
     pub(super) fn wrong(&self) -> Option<(Site, String)> {
         self.0.as_ref().and_then(Image::wrong)
     }
 }
 
-/// The contents of a memory, known at elaboration: a ROM, or what a RAM holds at power-on.
+/// Contents of a memory, known at elaboration: a ROM, or the power-on contents of a RAM.
 ///
 /// Words and addresses that do not fit are a mistake of the circuit that has the image: see
 /// [`elaborate`](super::elaborate()).
@@ -227,26 +228,26 @@ impl Contents {
 pub struct Image {
     address: usize,
     width: usize,
-    /// The first word that does not fit.
+    /// First word that does not fit.
     unfit: Option<Unfit>,
-    /// Circuits are cloned wherever they are looked at.
+    /// Shared, since circuits are cloned often.
     bits: Arc<BitVec<u64, Lsb0>>,
 }
 
-/// A word that an image does not take.
+/// Word that does not fit its image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Unfit {
-    /// Where it was given.
+    /// Source location that gave the word.
     site: Site,
     address: usize,
     word: u64,
-    /// Number of further ones.
+    /// Number of further words that do not fit.
     others: usize,
 }
 
 impl Image {
-    /// 2^`address` words of `width` bits, all zero. An address has at most 24 bits, a word 1 to 64:
-    /// of others there is an image without words, which no memory takes.
+    /// Returns 2^`address` words of `width` bits, all zero. An address has at most 24 bits, a word
+    /// 1 to 64. Other sizes give an image without words, which no memory accepts.
     pub fn new(address: usize, width: usize) -> Self {
         let words = match (address, width) {
             (0..=24, 1..=64) => 1 << address,
@@ -260,13 +261,13 @@ impl Image {
         }
     }
 
-    /// The words that `word` gives by address.
+    /// Returns an image whose words `word` computes from the address.
     #[track_caller]
     pub fn from_fn(address: usize, width: usize, word: impl FnMut(usize) -> u64) -> Self {
         Image::made(address, width, build::here(), word)
     }
 
-    /// The given words from address 0 up, zeros behind them.
+    /// Returns an image with the given words from address 0 up, filled with zeros.
     #[track_caller]
     pub fn of(address: usize, width: usize, words: impl IntoIterator<Item = u64>) -> Self {
         let site = build::here();
@@ -286,7 +287,7 @@ impl Image {
         image
     }
 
-    /// Notes a word that does not fit.
+    /// Records a word that does not fit.
     #[cold]
     fn refuse(&mut self, site: Site, address: usize, word: u64) {
         match &mut self.unfit {
@@ -302,7 +303,7 @@ impl Image {
         }
     }
 
-    /// Values that do not fit, and where they were given.
+    /// Returns a message about values that do not fit, and where they were given.
     fn wrong(&self) -> Option<(Site, String)> {
         let Unfit {
             site,
@@ -326,29 +327,29 @@ impl Image {
         Some((site, wrong))
     }
 
-    /// The number of words.
+    /// Returns the number of words.
     pub fn words(&self) -> usize {
         self.bits.len() / self.width.max(1)
     }
 
-    /// Width of an address in bits.
+    /// Returns the width of an address in bits.
     pub fn address(&self) -> usize {
         self.address
     }
 
-    /// Width of a word in bits.
+    /// Returns the width of a word in bits.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Its words, from address 0 up.
+    /// Returns the words, from address 0 up.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = u64> {
         self.bits
             .chunks_exact(self.width.max(1))
             .map(|word| word.load_le())
     }
 
-    /// The word at `address`; `None` if there is no such address.
+    /// Returns the word at `address`; `None` if there is no such address.
     pub fn get(&self, address: usize) -> Option<u64> {
         let bits = self.place(address).and_then(|place| self.bits.get(place));
         bits.map(|word| word.load_le())
@@ -376,7 +377,7 @@ impl Image {
         (address < self.words()).then(|| first..first + self.width)
     }
 
-    /// Combinational read as a ROM.
+    /// Reads the image combinationally, as a ROM.
     #[track_caller]
     pub fn rom(&self, address: U) -> U {
         if let Some((site, wrong)) = self.wrong() {

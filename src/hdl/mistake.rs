@@ -1,20 +1,20 @@
-//! What is wrong with a circuit.
+//! Mistakes of a circuit.
 
 use super::record::Site;
 use std::fmt;
 
-/// All that is wrong with a circuit: what [`elaborate`](super::elaborate) found, in its order.
+/// All mistakes of a circuit, in the order in which [`elaborate`](super::elaborate()) found them.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Wrong(pub Vec<Mistake>);
 
-/// One thing that is wrong.
+/// One mistake.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Mistake {
-    /// Where: the operator, the settling of a part, or the declaration.
+    /// Source location: the operator, the `settle` of a part, or the declaration.
     pub site: Site,
-    /// The circuit, by the names of the instances around it.
+    /// Instance path of the circuit.
     pub path: String,
-    /// What.
+    /// Description of the mistake.
     pub what: String,
 }
 
@@ -44,8 +44,8 @@ impl fmt::Display for Wrong {
 
 impl std::error::Error for Wrong {}
 
-/// Prints errors by `Debug` as they are displayed: `unwrap`, and a `main` that returns one, print
-/// `Debug`, and all mistakes are to be read there, a line each.
+/// Makes `Debug` of an error equal to `Display`. `unwrap`, and a `main` that returns an error,
+/// print `Debug`; the reader needs all mistakes there, one per line.
 macro_rules! debug_as_display {
     ($($error:ty),+) => {
         $(

@@ -1,13 +1,13 @@
 //! The language: circuits as plain structs, elaborated once to a netlist.
 //!
 //! A [`Circuit`] declares its signals as records ([`signals!`]), whose widths are expressions over
-//! its fields, and says in one function, [`tick`](Circuit::tick), what nets are and what registers
-//! become. That function runs once, when the circuit is [elaborated](elaborate): its words are
-//! handles to nodes of a netlist, so there is no `if` on a [`Bit`], only [`Bit::mux`]. The netlist is
-//! the only meaning: what runs, what is proved, what is printed as Verilog.
+//! its fields. One function, [`tick`](Circuit::tick), gives the nets and the next values of the
+//! registers. That function runs once, when the circuit is [elaborated](elaborate). Its words are
+//! handles to nodes of a netlist, so there is no `if` on a [`Bit`], only [`Bit::mux`]. The netlist
+//! is the only meaning of a circuit: it is run, proved and printed as Verilog.
 //!
-//! Words wrap, as registers do. Operands have the same width; a constant takes that of what it
-//! stands beside. Everything that is wrong is found at once and told with file, line and column
+//! Words wrap, as registers do. Operands have the same width; a constant takes the width of the
+//! word beside it. All mistakes are found at once and reported with file, line and column
 //! ([`Wrong`]).
 
 mod beside;
@@ -70,7 +70,7 @@ pub use simulator::{Simulator, Watcher};
 pub use view::{Edge, Kept, Place, Seen, Shapes, Value, View, Wire};
 pub use words::{Bit, Choice, Cut, I, Operand, U, Word, log2};
 
-/// What a circuit and its tests are written with.
+/// Everything needed to write and test a circuit.
 pub mod prelude {
     pub use super::{
         Bit, Circuit, Cut, Edge, I, Image, Moment, Nothing, Part, Property, Ram, Seen, Settled,
@@ -85,27 +85,27 @@ use beside::scope;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// A clocked circuit; its fields are its widths, its variants, the contents of its memories.
+/// Clocked circuit; its fields are its widths, its variants, the contents of its memories.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no circuit",
     note = "a circuit is a struct with `#[derive(Debug, Clone)]`, records from `signals!`, and \
             `impl Circuit` with `NAME`, `ABOUT`, `records!(In, Reg, Net)` and `fn tick`"
 )]
 pub trait Circuit: Clone + Debug + Send + Sync + 'static {
-    /// The circuit's name: the outermost scope of its waves, the module of its HDL.
+    /// Name of the circuit: the outermost scope of its waves, and its Verilog module.
     const NAME: &'static str;
-    /// What it does, in one line.
+    /// One-line description.
     const ABOUT: &'static str;
-    /// Ports in.
+    /// Input ports.
     type In<V: View>: Record<Self, V>;
     /// Flip-flops and memories.
     type Reg<V: View>: Record<Self, V>;
-    /// Nets; those that are `pub`, and such registers, are its ports out.
+    /// Nets; `pub` nets and `pub` registers are the output ports.
     type Net<V: View>: Record<Self, V>;
-    /// The circuits inside it.
+    /// Circuits inside.
     type Parts<V: View>: Record<Self, V>;
 
-    /// The nets of this tick and the registers of the next.
+    /// Computes the nets of this tick and the registers of the next.
     fn tick(
         &self,
         i: Self::In<Wire>,
@@ -113,29 +113,29 @@ pub trait Circuit: Clone + Debug + Send + Sync + 'static {
         p: Self::Parts<Wire>,
     ) -> (Self::Net<Wire>, Self::Reg<Edge>);
 
-    /// Its name, where it depends on its fields.
+    /// Returns the name, if it depends on the fields.
     fn name(&self) -> &'static str {
         Self::NAME
     }
 
-    /// What it does, where that depends on its fields.
+    /// Returns the one-line description, if it depends on the fields.
     fn about(&self) -> &'static str {
         Self::ABOUT
     }
 
-    /// Invariants in words, for `check` and for proofs by other tools. What looks at the registers
-    /// after the edge looks at [`Moment::next`].
+    /// Returns invariants written in words, for `check` and for other proof tools. An invariant
+    /// over an edge reads the registers after it in [`Moment::next`].
     fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
         let _ = now;
         Vec::new()
     }
 
-    /// What is wrong with its fields beyond the widths of words, in one sentence.
+    /// Returns an objection to the fields in one sentence, beyond the checks of word widths.
     fn objection(&self) -> Option<String> {
         None
     }
 
-    // What `records!` writes; see `made`.
+    // Written by `records!`; see `made`.
     #[doc(hidden)]
     fn make_module(&self, path: String, more: More<'_>) -> (usize, Vec<netlist::Setting>);
     #[doc(hidden)]
@@ -154,14 +154,14 @@ pub trait Circuit: Clone + Debug + Send + Sync + 'static {
     fn make_kept(&self, source: &mut dyn Source) -> Registers<Self>;
 }
 
-/// Shows ports in that a circuit does not look at.
+/// Shows input ports that the circuit itself does not read.
 #[doc(hidden)]
 pub type More<'a> = &'a mut dyn FnMut(&mut dyn Source);
 
-/// A circuit elaborated, its type forgotten.
+/// Elaborates a circuit and erases its type.
 ///
 /// # Errors
-/// All that is wrong with it.
+/// Returns all mistakes of the circuit.
 pub fn model<C: Circuit>(circuit: &C) -> Result<Model, EngineError> {
     let declared = circuit.clone();
     Model::new(
@@ -171,7 +171,7 @@ pub fn model<C: Circuit>(circuit: &C) -> Result<Model, EngineError> {
     )
 }
 
-/// The same with signals beside it.
+/// Elaborates a circuit with signals beside it and erases its type.
 pub fn model_beside<C: Circuit, B: Beside>(circuit: &C, beside: &B) -> Result<Model, EngineError> {
     let signals = |beside: &B, source: &mut dyn Source| {
         B::Signals::<Shapes>::make(beside, const { &scope::<B>() }, source);
@@ -184,7 +184,7 @@ pub fn model_beside<C: Circuit, B: Beside>(circuit: &C, beside: &B) -> Result<Mo
     )
 }
 
-/// Ports in with every bit low.
+/// Returns input ports with all bits low.
 pub fn zero<C: Circuit>(circuit: &C) -> C::In<Value> {
     pack::inputs(circuit, |_| 0)
 }

@@ -6,18 +6,18 @@ use crate::engine::{Engine, EngineError, Flat, Program, Watch, ports_out};
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
-/// What a [`Model`] can be made of: a circuit, or a model.
+/// Type from which a [`Model`] can be made: a circuit, or a model.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no circuit",
     note = "a `Circuit` or an elaborated `Model` is wanted, by reference: `&circuit`"
 )]
 pub trait Described {
-    /// The circuit elaborated.
+    /// Elaborates the circuit.
     ///
     /// # Errors
-    /// All that is wrong with it.
+    /// Returns all mistakes of the circuit.
     fn described(&self) -> Result<Model, EngineError>;
-    /// Its name and its signals; what they are at power-on is left at 0.
+    /// Returns name and signals; power-on values are left at 0.
     fn outlined(&self) -> (&'static str, Declarations);
 }
 
@@ -39,23 +39,22 @@ impl<C: Circuit> Described for C {
     }
 }
 
-/// A circuit that is elaborated, its type forgotten: what waves, charts, Verilog and random runs
-/// are made of.
+/// Elaborated circuit with its type erased: the input of waves, charts, Verilog and random runs.
 #[derive(Clone)]
 pub struct Model {
     name: &'static str,
     about: &'static str,
     design: Arc<Design>,
     flat: Arc<Flat>,
-    /// Names of all words of memories take as long as the rest of a circuit, and who only runs it
-    /// wants none.
+    /// Makes the declarations on demand: the names of all memory words take as long as the rest of
+    /// a circuit, and a plain run needs none.
     declare: Declare,
-    /// The signals without what they are at power-on.
+    /// Signals without their power-on values.
     outline: OnceLock<Arc<Declarations>>,
     declarations: OnceLock<Arc<Declarations>>,
 }
 
-/// Makes the signals of a circuit, without what they are at power-on.
+/// Function that makes the signals of a circuit, without their power-on values.
 pub(crate) type Declare = Arc<dyn Fn() -> Declarations + Send + Sync>;
 
 impl fmt::Debug for Model {
@@ -67,7 +66,7 @@ impl fmt::Debug for Model {
 }
 
 impl Model {
-    /// Of a circuit that is elaborated: its name and what it does, its modules, what makes its
+    /// Creates a model from name and description, modules, and the function that makes the
     /// signals.
     pub(crate) fn new(
         (name, about): (&'static str, &'static str),
@@ -85,33 +84,33 @@ impl Model {
         })
     }
 
-    /// The circuit's name.
+    /// Returns the circuit's name.
     pub fn name(&self) -> &'static str {
         self.name
     }
 
-    /// What it does, in one line.
+    /// Returns the one-line description.
     pub fn about(&self) -> &'static str {
         self.about
     }
 
-    /// Its modules.
+    /// Returns the modules.
     pub fn design(&self) -> &Design {
         &self.design
     }
 
-    /// Its signals, in the order of its leaves; what they are at power-on is left at 0.
+    /// Returns the signals in the order of the leaves; power-on values are left at 0.
     pub(crate) fn outline(&self) -> &Declarations {
         self.outline.get_or_init(|| Arc::new((self.declare)()))
     }
 
-    /// It as one netlist.
+    /// Returns the circuit as one flat netlist.
     pub(crate) fn flat(&self) -> &Flat {
         &self.flat
     }
 
-    /// Its signals, in the order of the leaves of its [`engine`](Self::engine), with what they are
-    /// at power-on.
+    /// Returns the signals, in the order of the leaves of its [`engine`](Self::engine), with their
+    /// power-on values.
     pub fn declarations(&self) -> &Declarations {
         self.declarations.get_or_init(|| {
             let mut declarations = self.outline().clone();
@@ -124,40 +123,40 @@ impl Model {
         })
     }
 
-    /// It ready to run, at power-on with all ports in low.
+    /// Creates an engine in the power-on state, with all input ports low.
     pub fn engine(&self, watch: Watch<'_>) -> Engine {
         Engine::new(self.program(watch))
     }
 
-    /// It planned.
+    /// Plans the circuit.
     pub(crate) fn program(&self, watch: Watch<'_>) -> Arc<Program> {
         self.program_with(watch, &[])
     }
 
-    /// It planned, where idle ticks leave not only ports out as they are, but these leaves too.
+    /// Plans the circuit; idle ticks also end when one of the leaves `seen` changes.
     pub(crate) fn program_with(&self, watch: Watch<'_>, seen: &[usize]) -> Arc<Program> {
         let mut held = ports_out(&self.design);
         held.extend(seen);
         Arc::new(Program::planned(&self.flat, watch, &held))
     }
 
-    /// The leaves that are ports out.
+    /// Returns the leaves that are output ports.
     pub fn ports_out(&self) -> Vec<usize> {
         ports_out(&self.design)
     }
 
-    /// Its ports in.
+    /// Returns the input ports.
     pub(crate) fn ports(&self) -> Ports {
         Ports::of(&self.design, &self.declare)
     }
 
-    /// How many of its nets are its own, and not of a circuit inside it.
+    /// Returns the number of the circuit's own nets, without those of the circuits inside it.
     pub(crate) fn own_nets(&self) -> usize {
         let modules = &self.design.modules;
         modules.last().map_or(0, |whole| whole.own_nets(modules))
     }
 
-    /// The leaves of a part of the whole.
+    /// Returns the leaves of a part of the circuit.
     pub(crate) fn leaves(&self, role: Role) -> std::ops::Range<usize> {
         self.flat.part(role)
     }

@@ -1,8 +1,8 @@
-//! Single faults, put into a circuit while it is elaborated.
+//! Single faults that are put into a circuit during elaboration.
 //!
-//! A fault is known by where its node was written, so that it is the same one at any width. It is in
-//! every instance of the circuit, as a slip in its source would be; properties see what it does, and
-//! are not changed by it.
+//! The source location of its node identifies a fault, so a fault is the same at any width. It
+//! affects every instance of the circuit, as a slip in the source would. Properties see its effect
+//! but are not changed themselves.
 
 mod change;
 mod find;
@@ -15,69 +15,69 @@ use super::record::Site;
 use std::cell::RefCell;
 use std::fmt;
 
-/// A single fault of a circuit; it prints as where it is and what it changes.
+/// Single fault of a circuit; prints its place and its change.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Mutation {
-    /// The circuit's name.
+    /// Name of the circuit.
     pub circuit: String,
     place: Place,
     change: Change,
 }
 
-/// Where a fault is.
+/// Place of a fault.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 enum Place {
-    /// What is computed there; of several that the same place makes, the one of this number.
+    /// Node computed at a location; `nth` distinguishes several nodes of one location.
     Node {
-        /// The operator.
+        /// Location of the operator.
         site: Site,
-        /// What it is: two of one place need not be the same.
+        /// Kind of node: one location can make nodes of several kinds.
         kind: &'static str,
-        /// Its number among those of its kind from 0.
+        /// Number among the nodes of that kind, from 0.
         nth: usize,
     },
-    /// A register or net, by its name.
+    /// Register or net, by name.
     Signal(String),
-    /// A memory, by its name.
+    /// Memory, by name.
     Memory(String),
-    /// A port in of a part: the part, and the port.
+    /// Input port of a part: the part, and the port.
     Port(String, String),
 }
 
-/// What a fault changes.
+/// Change made by a fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Change {
-    /// Another operator: a difference for a sum, or for and, at least for equal, and so on.
+    /// Another operator: a difference for a sum, `or` for `and`, at least for equal, and so on.
     Operator,
-    /// The operands are exchanged.
+    /// Exchanged operands.
     Exchanged,
-    /// The first operand alone.
+    /// First operand alone.
     First,
-    /// The second operand alone.
+    /// Second operand alone.
     Second,
-    /// Not inverted, not negated, not extended by its sign.
+    /// No inversion, no negation, or no sign extension.
     Plain,
-    /// A choice that always takes the first.
+    /// First word of a choice, always.
     Then,
-    /// A choice that always takes the second.
+    /// Second word of a choice, always.
     Otherwise,
-    /// The choice in its second comes first.
+    /// Order of two nested choices exchanged.
     Priority,
-    /// A constant operand, by its number, is one more; a bit is the other one.
+    /// Constant operand, by number, increased by one; a single bit is inverted.
     More(usize),
-    /// One less.
+    /// Constant operand, by number, decreased by one.
     Less(usize),
-    /// A slice from one bit higher, a shift by one bit more.
+    /// Slice from one bit higher, or a shift by one bit more.
     Up,
-    /// The other way round.
+    /// Slice from one bit lower, or a shift by one bit less.
     Down,
-    /// It holds another value at power-on.
+    /// Another power-on value.
     PowerOn,
-    /// A signal is low, a memory never written.
+    /// Signal low, or memory never written.
     Low,
-    /// A memory is written in every tick.
+    /// Memory written in every tick.
     High,
-    /// A port takes what the next one takes, and the other way round.
+    /// Port exchanged with the next one.
     Crossed,
 }
 
@@ -132,7 +132,7 @@ thread_local! {
 }
 
 fn with<T>(task: Task, work: impl FnOnce() -> T) -> (T, Option<Task>) {
-    /// What was there before comes back, also where `work` panics.
+    /// Restores the previous task, also if `work` panics.
     struct Back(Option<Task>);
     impl Drop for Back {
         fn drop(&mut self) {
@@ -147,7 +147,7 @@ fn with<T>(task: Task, work: impl FnOnce() -> T) -> (T, Option<Task>) {
     (worked, task)
 }
 
-/// The faults that there are of a circuit inside what `work` elaborates.
+/// Returns the possible faults of a circuit inside the one that `work` elaborates.
 pub(crate) fn mutations<T>(circuit: &str, work: impl FnOnce() -> T) -> (T, Vec<Mutation>) {
     let circuit = circuit.to_owned();
     let found = Vec::new();
@@ -157,7 +157,7 @@ pub(crate) fn mutations<T>(circuit: &str, work: impl FnOnce() -> T) -> (T, Vec<M
     }
 }
 
-/// What `work` elaborates, with a fault in it; nothing where the fault has no place in it.
+/// Elaborates by `work` with a fault; returns `None` if the fault has no place there.
 pub(crate) fn mutated<T>(mutation: &Mutation, work: impl FnOnce() -> T) -> Option<T> {
     let mutation = mutation.clone();
     let put = Task::Put {
@@ -170,7 +170,8 @@ pub(crate) fn mutated<T>(mutation: &Mutation, work: impl FnOnce() -> T) -> Optio
     }
 }
 
-/// A module has everything but its properties: its faults are noted, or one is put into it.
+/// Visits a module that is complete except for its properties: records its faults, or puts one
+/// into it.
 pub(super) fn visit(circuit: &str, elaboration: &mut Elaboration, nets: &mut Nets) {
     let Elaboration { open, modules, .. } = elaboration;
     let Some(builder) = open.last_mut() else {
@@ -186,7 +187,7 @@ pub(super) fn visit(circuit: &str, elaboration: &mut Elaboration, nets: &mut Net
         }
         Some(Task::Put { mutation, done }) if mutation.circuit == circuit => {
             *done |= change::put(mutation, builder, nets, modules);
-            // A property is not to share what is wrong now.
+            // A property must not share the faulty nodes.
             builder.known.clear();
         }
         _ => {}

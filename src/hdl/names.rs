@@ -1,5 +1,5 @@
-//! Names that a module cannot have: those that it has twice, in its waves or in Verilog, and those
-//! that Verilog keeps for itself.
+//! Names that a module cannot have: duplicates in its waves or in Verilog, and words that Verilog
+//! reserves.
 
 use super::build::{self, Builder, Elaboration, elaboration, mistake};
 use super::keywords::is_reserved;
@@ -8,7 +8,7 @@ use super::record::Site;
 use super::signal::Role;
 use std::collections::BTreeMap;
 
-/// Checks the names of the module that is being made, a circuit of this name.
+/// Checks the names in the module under construction, a circuit named `circuit`.
 pub(super) fn check(site: Site, circuit: &str) {
     let wrong = elaboration(|Elaboration { open, modules, .. }| match open.last() {
         Some(builder) => {
@@ -25,7 +25,7 @@ pub(super) fn check(site: Site, circuit: &str) {
 }
 
 impl Builder {
-    /// Names of the circuit, of its signals, memories and parts that are words of Verilog.
+    /// Returns names of the circuit, its signals, memories and parts that are words of Verilog.
     fn reserved(&self, circuit: &str) -> Vec<String> {
         let own = self.signals.iter().filter(|own| own.owner.is_none());
         let memories = self.memories.iter().filter(|memory| !memory.inner);
@@ -40,8 +40,8 @@ impl Builder {
         reserved.collect()
     }
 
-    /// Names that are used twice, by the circuit, its signals, memories and parts or by what
-    /// Verilog makes of them.
+    /// Returns names that are used twice by the circuit, its signals, memories and parts, or by
+    /// the names that Verilog derives from them.
     fn twice(&self, modules: &[Module], circuit: &str) -> Vec<String> {
         let mut names: BTreeMap<String, Vec<String>> = BTreeMap::new();
         let mut add = |name: String, of: String| {
@@ -97,7 +97,7 @@ impl Builder {
         twice.collect()
     }
 
-    /// Whether a net of that name is nothing but a port of an instance.
+    /// True if a net of that name only shows a port of an instance.
     fn shows(&self, name: &str, port: (usize, usize), modules: &[Module]) -> bool {
         let port_of = |id: Id| match self.nodes[id].0 {
             Node::Signal(signal) => self.signals[signal].owner,
@@ -111,7 +111,7 @@ impl Builder {
         own.any(|net| net.name == name && net.driver.and_then(port_of) == Some(port))
     }
 
-    /// Parts that have the name of a signal or memory inside them, which would hide them.
+    /// Returns parts that have the name of a signal or memory inside them, which would hide it.
     fn hidden(&self, modules: &[Module]) -> impl Iterator<Item = (Site, String)> {
         self.instances.iter().filter_map(|instance| {
             let (name, inside) = (&instance.child.name, &modules[instance.child.module]);

@@ -1,11 +1,11 @@
-//! What looks at every tick of a run.
+//! Observers of a run.
 
 use super::{Circuit, Sample};
 use crate::engine::{EngineError, InputError};
 use std::io;
 use std::ops::ControlFlow;
 
-/// Why a run ended before its time.
+/// Reason why a run ended early.
 #[derive(thiserror::Error)]
 pub enum RunError {
     /// The circuit cannot be run.
@@ -17,20 +17,20 @@ pub enum RunError {
     /// An input does not fit its port.
     #[error("tick {tick}: {error}")]
     Input {
-        /// The tick that it was for.
+        /// Tick of the input.
         tick: u64,
         /// Port and value that do not fit.
         #[source]
         error: InputError,
     },
-    /// A monitor saw what must not be.
+    /// A monitor found a violation.
     #[error("tick {tick}: {message} (signals: {})", signals.join(", "))]
     Violation {
-        /// The tick at fault.
+        /// Tick at fault.
         tick: u64,
-        /// The signals at fault.
+        /// Signals at fault.
         signals: Vec<String>,
-        /// What is wrong.
+        /// Description of the violation.
         message: String,
     },
 }
@@ -38,42 +38,43 @@ pub enum RunError {
 crate::hdl::debug_as_display!(RunError);
 
 impl RunError {
-    /// An input of this tick does not fit.
+    /// Returns a conversion of an input error at this tick.
     pub(crate) fn at(tick: u64) -> impl FnOnce(InputError) -> RunError {
         move |error| RunError::Input { tick, error }
     }
 }
 
-/// Looks at every tick of a run: writes waves, records, monitors, stops.
+/// Observes the ticks of a run: writes waves, records, checks, stops.
 ///
-/// `()` observes nothing and costs nothing; a tuple observes with each of its parts in turn.
+/// `()` observes nothing and costs nothing; a tuple passes each tick to its parts in turn.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not observe runs of `{C}`",
     note = "observers are `()`, `Vcd`, `Fst`, `Recorder`, `Monitor`, `StopWhen`, references to them, \
             and tuples of two to four of them"
 )]
 pub trait Observer<C: Circuit> {
-    /// The first tick from this one on at which it looks: of others [`sample`](Self::sample) takes
-    /// nothing. Where ticks are [looked](super::Simulator::look) at one by one, those at which
-    /// nobody looks are not shown.
+    /// Returns the first tick from `tick` on that the observer needs; [`sample`](Self::sample)
+    /// ignores others. Where ticks are [looked](super::Simulator::look) at one by one, ticks that
+    /// no observer needs are not shown.
     fn next_look(&self, tick: u64) -> u64 {
         tick
     }
 
-    /// Whether it looks at that tick.
+    /// True if the observer needs this tick.
     fn looks(&self, tick: u64) -> bool {
         self.next_look(tick) == tick
     }
 
-    /// Whether it looks at signals that nobody chose to [watch](super::Simulator::watching).
+    /// True if the observer reads signals that nobody chose to
+    /// [watch](super::Simulator::watching).
     fn needs_all(&self) -> bool {
         true
     }
 
-    /// Sees one tick; `Break` ends the run after this tick's edge.
+    /// Receives one tick; `Break` ends the run after this tick's edge.
     ///
     /// # Errors
-    /// Ends the run with that error.
+    /// Ends the run with the returned error.
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError>;
 }
 
@@ -147,7 +148,7 @@ together!(A 0, B 1);
 together!(A 0, B 1, D 2);
 together!(A 0, B 1, D 2, E 3);
 
-/// Ends a run at the first tick for which the condition holds; that tick still happens.
+/// Ends a run after the first tick in which the condition holds.
 #[derive(Debug, Clone)]
 pub struct StopWhen<F>(pub F);
 

@@ -5,8 +5,8 @@ use super::memory::Contents;
 use super::record::{Cells, MemoryShape, Pass, Source};
 use crate::hdl::{Declarations, Field, Outline, Role, Shape};
 
-/// The signals of a circuit: ports in, registers, nets. What they are at power-on is left at 0.
-/// `beside` shows ports in that stand beside it.
+/// Returns the signals of a circuit: input ports, registers, nets. Power-on values are left at 0.
+/// `beside` shows the input ports that stand beside the circuit.
 pub(crate) fn declarations<C: Circuit>(
     circuit: &C,
     beside: &mut dyn FnMut(&mut dyn Source),
@@ -23,7 +23,7 @@ pub(crate) fn declarations<C: Circuit>(
     declarations
 }
 
-/// Shows a walk to whoever wants names and shapes.
+/// Source that passes names and shapes of a walk on.
 pub(crate) struct Shown<'a> {
     pub outline: &'a mut dyn Outline,
     pub pass: Pass,

@@ -1,4 +1,4 @@
-//! Records of numbers as words, and back.
+//! Conversion of records of numbers into words, and back.
 
 use super::memory::Contents;
 use super::record::{Cells, MemoryShape, Pass, Record, Source, Walk};
@@ -7,7 +7,7 @@ use super::{Circuit, Registers};
 use crate::hdl::{Field, Role, Shape};
 use std::sync::Arc;
 
-/// The widths of the leaves of a walk, words of memories among them.
+/// Widths of the leaves of a walk, including words of memories.
 #[derive(Default)]
 struct Widths {
     widths: Vec<usize>,
@@ -38,19 +38,19 @@ impl Source for Widths {
     }
 }
 
-/// The widths of the words of a record.
+/// Returns the widths of the words of a record.
 pub(crate) fn widths<O: ?Sized, R: Record<O, Shapes>>(of: &O) -> Vec<usize> {
     let mut widths = Widths::default();
     R::make(of, view::role(Role::Input), &mut widths);
     widths.widths
 }
 
-/// The widths of the ports in of a circuit.
+/// Returns the widths of the input ports of a circuit.
 pub(crate) fn input_widths<C: Circuit>(circuit: &C) -> Vec<usize> {
     widths_of(circuit, Role::Input)
 }
 
-/// The widths of all registers of a circuit and of those inside it.
+/// Returns the widths of all registers of a circuit and of those inside it.
 pub(crate) fn register_widths<C: Circuit>(circuit: &C) -> Vec<usize> {
     widths_of(circuit, Role::Register)
 }
@@ -61,7 +61,7 @@ fn widths_of<C: Circuit>(circuit: &C, role: Role) -> Vec<usize> {
     widths.widths
 }
 
-/// The words of a record, each cut to its width.
+/// Returns the words of a record, each cut to its width.
 pub(crate) fn words<R: Walk<Value>>(record: &R, widths: &[usize]) -> Vec<u64> {
     let mut words = tokens(record);
     for (word, width) in words.iter_mut().zip(widths) {
@@ -70,19 +70,19 @@ pub(crate) fn words<R: Walk<Value>>(record: &R, widths: &[usize]) -> Vec<u64> {
     words
 }
 
-/// What a record shows of its words.
+/// Returns the tokens of a record's words.
 pub(crate) fn tokens<V: View, R: Walk<V>>(record: &R) -> Vec<u64> {
     let mut tokens = Vec::new();
     record.words(&mut tokens);
     tokens
 }
 
-/// Ports in whose words are given one after the other, each cut to its width.
+/// Returns input ports from words that `word` gives in order, each cut to its width.
 pub fn inputs<C: Circuit>(circuit: &C, word: impl FnMut(Shape) -> u64) -> C::In<Value> {
     circuit.make_inputs(&mut Given(word))
 }
 
-/// Leaves that are given one after the other.
+/// Source whose leaves are given in order.
 struct Given<F>(F);
 
 impl<F: FnMut(Shape) -> u64> Source for Given<F> {
@@ -108,17 +108,17 @@ impl<F: FnMut(Shape) -> u64> Source for Given<F> {
     }
 }
 
-/// Takes a word apart, from its lowest bits on.
+/// Splits a word into leaves, from its lowest bits on.
 pub(crate) fn bits_of(mut word: u64) -> impl FnMut(Shape) -> u64 {
     move |shape| {
         let leaf = word;
-        // A leaf of 64 bits is the only one, nothing comes after it.
+        // A leaf of 64 bits is the only one; nothing comes after it.
         word = leaf.checked_shr(shape.width as u32).unwrap_or(0);
         leaf
     }
 }
 
-/// Words side by side, the first in the lowest bits.
+/// Concatenates words, the first in the lowest bits.
 pub(crate) fn joined(words: &[u64], widths: &[usize]) -> u64 {
     let mut filled = 0;
     let mut joined = 0;
@@ -129,7 +129,7 @@ pub(crate) fn joined(words: &[u64], widths: &[usize]) -> u64 {
     joined
 }
 
-/// All registers of a circuit from a word.
+/// Returns all registers of a circuit from one word.
 pub(crate) fn registers_of<C: Circuit>(circuit: &C, word: u64) -> Registers<C> {
     circuit.make_kept(&mut Given(bits_of(word)))
 }

@@ -9,27 +9,27 @@ use crate::hdl::netlist::{Child, Node, Register, Setting};
 use crate::hdl::{Field, Path, Role, Shape};
 use std::fmt;
 
-/// A circuit inside another, before it is settled: its registers stand already.
+/// Circuit inside another, before it is settled; its registers are already readable.
 pub struct Part<C: Circuit> {
     circuit: C,
-    /// Its number among the parts.
+    /// Index among the parts.
     part: usize,
-    /// Its registers in this tick.
+    /// Registers in this tick.
     pub q: C::Reg<Seen>,
 }
 
-/// The same afterwards.
+/// Circuit inside another, settled.
 pub struct Settled<C: Circuit> {
-    /// What drives its ports in.
+    /// Drivers of its input ports.
     pub i: C::In<Wire>,
-    /// Its registers in this tick.
+    /// Registers in this tick.
     pub q: C::Reg<Seen>,
-    /// Its nets.
+    /// Nets.
     pub w: C::Net<Wire>,
 }
 
 impl<C: Circuit> Part<C> {
-    /// Its registers come into being, with those of the circuits inside it.
+    /// Declares the registers of the part and of the circuits inside it.
     pub(super) fn declare(circuit: &C, field: &'static Field, source: &mut dyn Source) -> Self {
         source.enter(field);
         let first = begin();
@@ -47,7 +47,8 @@ impl<C: Circuit> Part<C> {
         }
     }
 
-    /// Applies its ports in and settles its nets. It takes the part: nothing is settled twice.
+    /// Connects the input ports and settles the nets. Takes the part by value, so that it settles
+    /// once.
     #[track_caller]
     pub fn settle(self, i: C::In<Wire>) -> Settled<C> {
         let site = here();
@@ -63,9 +64,9 @@ impl<C: Circuit> Part<C> {
     }
 }
 
-// What does not depend on the circuit's type is not made for each.
+// Code that does not depend on the circuit's type is compiled once.
 
-/// The registers of a part begin; returns their place in the walk.
+/// Begins the registers of a part; returns their first leaf in the walk.
 #[inline(never)]
 fn begin() -> usize {
     builder(|builder| {
@@ -74,7 +75,7 @@ fn begin() -> usize {
     })
 }
 
-/// The registers since then are those of a part; returns its number.
+/// Ends the registers of a part that begin at `first`; returns its index.
 #[inline(never)]
 fn declared(first: usize) -> usize {
     builder(|builder| {
@@ -89,7 +90,7 @@ fn declared(first: usize) -> usize {
     })
 }
 
-/// The path of a part.
+/// Returns the instance path of a part.
 #[inline(never)]
 fn path(part: usize) -> String {
     builder(|builder| format!("{}.{}", builder.path, builder.parts[part].name))
@@ -137,7 +138,7 @@ fn instance(
     ports.split_off(leaves - own)
 }
 
-/// Settles several parts; `drive` gives the ports in of one by its index.
+/// Settles several parts; `drive` returns the input ports of a part by its index.
 #[track_caller]
 pub fn settle_each<C: Circuit>(
     parts: Vec<Part<C>>,
@@ -150,7 +151,7 @@ pub fn settle_each<C: Circuit>(
     settled
 }
 
-/// The nodes that drive ports in, each as wide as its port.
+/// Returns the nodes that drive the input ports, each as wide as its port.
 fn drive<C: Circuit>(circuit: &C, i: &C::In<Wire>, site: super::Site) -> Vec<build::Id> {
     let mut wanted = Counted::default();
     circuit.make_shapes(Role::Input, &mut wanted);
@@ -159,7 +160,7 @@ fn drive<C: Circuit>(circuit: &C, i: &C::In<Wire>, site: super::Site) -> Vec<bui
     pair(&given, &wanted, site, "port")
 }
 
-/// The nodes of the leaves of a record, each as wide as it is declared.
+/// Returns the nodes of the leaves of a record, each as wide as declared.
 pub(super) fn pair(
     given: &Counted,
     wanted: &Counted,
@@ -242,7 +243,7 @@ impl Counted {
         });
     }
 
-    /// As many words, all low.
+    /// Returns one low word per leaf.
     pub(super) fn low(&self) -> Vec<build::Id> {
         let leaves = self.leaves.iter();
         let low = leaves.map(|leaf| build::constant(0, build::nearest(leaf.shape)));

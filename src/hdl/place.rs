@@ -1,4 +1,4 @@
-//! Places: where signals are that are looked at.
+//! Places: handles to signals that are read.
 
 use super::Circuit;
 use super::memory::Contents;
@@ -10,10 +10,10 @@ use crate::hdl::{Field, Role, Shape};
 use std::fmt;
 use std::marker::PhantomData;
 
-/// Where a signal is, and what is seen there: a `bool`, `u64` or `i64`.
+/// Handle to a signal whose value is read as a `bool`, `u64` or `i64`.
 pub struct At<T> {
     leaf: u32,
-    /// Bits of 64 that are above it.
+    /// Number of bits of 64 above the signal.
     spare: u32,
     number: PhantomData<fn() -> T>,
 }
@@ -27,12 +27,12 @@ impl<T> At<T> {
         }
     }
 
-    /// The leaf of the walk.
+    /// Returns the index of the leaf.
     pub fn leaf(self) -> usize {
         self.leaf as usize
     }
 
-    /// Width of the signal in bits.
+    /// Returns the width of the signal in bits.
     pub fn width(self) -> usize {
         64 - self.spare as usize
     }
@@ -45,7 +45,7 @@ impl<T: Number> At<T> {
     }
 }
 
-// Written out because a derive would ask the number itself to be `Copy`.
+// Written by hand: a derive would require `T: Copy`.
 impl<T> Clone for At<T> {
     fn clone(&self) -> Self {
         *self
@@ -66,15 +66,15 @@ impl<T> fmt::Debug for At<T> {
     }
 }
 
-/// What is seen at a place.
+/// Number type in which a signal is read.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no number that a signal has",
     note = "a `Bit` is seen as `bool`, a `U` as `u64`, an `I` as `i64`"
 )]
 pub trait Number: Copy {
-    /// From the word that stands there, and the number of bits above it.
+    /// Converts a word, given the number of bits above it.
     fn of(word: u64, spare: u32) -> Self;
-    /// The word that it is.
+    /// Converts to a word.
     fn word(self) -> u64;
 }
 
@@ -111,7 +111,7 @@ impl Number for i64 {
     }
 }
 
-/// Where the words of a memory are.
+/// Handle to the words of a memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MemoryAt {
     first: usize,
@@ -128,26 +128,26 @@ impl MemoryAt {
         }
     }
 
-    /// The number of words.
+    /// Returns the number of words.
     pub fn words(self) -> usize {
         self.words
     }
 
-    /// A word; `None` where there is none.
+    /// Returns the place of a word; `None` if there is no such word.
     pub fn word(self, index: usize) -> Option<At<u64>> {
         (index < self.words).then(|| At::new(self.first + index, self.width))
     }
 }
 
-/// The places of all signals of a circuit, those of the circuits inside it too.
+/// Places of all signals of a circuit, including those of the circuits inside it.
 pub struct Signals<C: Circuit> {
-    /// Ports in.
+    /// Input ports.
     pub i: C::In<Place>,
     /// Registers.
     pub q: C::Reg<Place>,
     /// Nets.
     pub w: C::Net<Place>,
-    /// The circuits inside.
+    /// Circuits inside.
     pub p: C::Parts<Place>,
 }
 
@@ -158,7 +158,7 @@ impl<C: Circuit> fmt::Debug for Signals<C> {
 }
 
 impl<C: Circuit> Signals<C> {
-    /// Those of a circuit; `beside` ports in stand beside it, behind its own.
+    /// Returns the places of a circuit with `beside` further input ports after its own.
     pub(super) fn of(circuit: &C, beside: usize) -> Self {
         let ports = pack::input_widths(circuit).len() + beside;
         let nets = ports + pack::register_widths(circuit).len();
@@ -170,7 +170,7 @@ impl<C: Circuit> Signals<C> {
     }
 }
 
-/// The leaves by their numbers.
+/// Source that numbers the leaves.
 struct Leaves(Places);
 
 impl Source for Leaves {

@@ -1,4 +1,4 @@
-//! Ports in of a circuit: the values that each takes.
+//! Input ports of a circuit and their ranges.
 
 use super::model::Declare;
 use super::netlist::Design;
@@ -6,21 +6,21 @@ use super::{Kind, Shape};
 use crate::engine::InputError;
 use std::fmt;
 
-/// Ports in of an elaborated circuit, those beside it last.
+/// Input ports of an elaborated circuit; those beside it come last.
 #[derive(Clone)]
 pub(crate) struct Ports {
     ranges: Vec<Range>,
-    /// Makes the names, for an error.
+    /// Makes the names, for an error message.
     declare: Declare,
 }
 
-/// Values of one port in.
+/// Range of one input port.
 #[derive(Debug, Clone, Copy)]
 struct Range {
     shape: Shape,
-    /// Bits of the word.
+    /// Mask of the word's bits.
     mask: u64,
-    /// Distance of the least value from 0.
+    /// Distance of the least value below 0.
     below: u64,
 }
 
@@ -36,7 +36,7 @@ impl Range {
         }
     }
 
-    /// True if a number of 64 bits, in two's complement where the port is signed, is in the range.
+    /// True if a 64-bit number is in the range; it is two's complement if the port is signed.
     #[inline]
     fn has(self, number: u64) -> bool {
         number.wrapping_add(self.below) & !self.mask == 0
@@ -59,12 +59,12 @@ impl Ports {
         }
     }
 
-    /// Number of ports in.
+    /// Returns the number of input ports.
     pub fn count(&self) -> usize {
         self.ranges.len()
     }
 
-    /// Bits of a number for a port.
+    /// Converts a number to the bits of a port.
     #[inline]
     pub fn bits(&self, port: usize, number: u64) -> Result<u64, InputError> {
         match self.ranges.get(port) {
@@ -73,7 +73,7 @@ impl Ports {
         }
     }
 
-    /// Turns one number for each of the first `count` ports into bits.
+    /// Converts one number for each of the first `count` ports to bits.
     #[inline]
     pub fn all_bits(&self, count: usize, numbers: &mut [u64]) -> Result<(), InputError> {
         if numbers.len() != count {
@@ -88,7 +88,7 @@ impl Ports {
         Ok(())
     }
 
-    /// Checks that a word has no bits that its port has not.
+    /// Returns an error if a word has bits beyond the width of its port.
     pub fn check_word(&self, port: usize, word: u64) -> Result<(), InputError> {
         match self.ranges.get(port) {
             Some(range) if word & !range.mask == 0 => Ok(()),
@@ -127,7 +127,7 @@ impl Ports {
         }
     }
 
-    /// Name of a port below its circuit.
+    /// Returns the name of a port below its circuit.
     fn name(&self, port: usize) -> String {
         let declared = (self.declare)();
         let names = declared.leaves.get(port).map(|leaf| leaf.names().skip(1));

@@ -11,25 +11,25 @@ use crate::hdl::netlist::{Assertion, Id, Node, Register};
 use crate::hdl::{Field, Role, Shape};
 use std::fmt;
 
-/// The signals of a settled tick, and the registers after its edge.
+/// Signals of a settled tick, and the registers after its edge.
 pub struct Moment<C: Circuit> {
-    /// Ports in.
+    /// Input ports.
     pub i: C::In<Wire>,
     /// Registers.
     pub q: C::Reg<Seen>,
     /// Nets.
     pub w: C::Net<Wire>,
-    /// The circuits inside.
+    /// Circuits inside.
     pub p: C::Parts<Seen>,
-    /// The registers after the edge.
+    /// Registers after the edge.
     pub next: After<C>,
 }
 
 /// Registers after an edge.
 pub struct After<C: Circuit> {
-    /// The circuit's own.
+    /// Registers of the circuit itself.
     pub q: C::Reg<Seen>,
-    /// Those of the circuits inside.
+    /// Registers of the circuits inside.
     pub p: C::Parts<Seen>,
 }
 
@@ -45,22 +45,22 @@ impl<C: Circuit> fmt::Debug for After<C> {
     }
 }
 
-/// An invariant that is written in words: `check` proves it where words are narrow, and it stands
-/// in the printed HDL as an assertion that other tools prove where they are wide.
+/// Invariant written in words. `check` proves it at small widths. The printed Verilog has it as an
+/// assertion, which other tools can prove at full width.
 #[derive(Debug, Clone)]
 pub struct Property {
-    /// What holds.
+    /// Statement of the property.
     pub name: &'static str,
-    /// The signals at fault where it does not.
+    /// Signals at fault if the property is violated.
     pub signals: &'static [&'static str],
-    /// Whether it looks at the registers after the edge.
+    /// True if the property reads the registers after the edge.
     pub step: bool,
-    /// High where it holds.
+    /// High if the property holds.
     pub holds: Bit,
 }
 
 impl Property {
-    /// Of the settled signals of a tick.
+    /// Creates a property of the settled signals of a tick.
     pub fn always(name: &'static str, signals: &'static [&'static str], holds: Bit) -> Self {
         Property {
             name,
@@ -70,7 +70,7 @@ impl Property {
         }
     }
 
-    /// Of the settled signals of a tick and the registers after its edge.
+    /// Creates a property of the settled signals of a tick and the registers after its edge.
     pub fn step(name: &'static str, signals: &'static [&'static str], holds: Bit) -> Self {
         Property {
             step: true,
@@ -79,8 +79,8 @@ impl Property {
     }
 }
 
-/// Adds the properties of a circuit to the module being made. Those that look over an edge are
-/// about the tick before and the registers of this one.
+/// Adds the properties of a circuit to the module under construction. A property over an edge is
+/// stated about the tick before and the registers of this one.
 pub(super) fn note<C: Circuit>(circuit: &C, nets: &Nets) {
     let now = There::of(nets);
     let always = circuit.properties(&now.moment(circuit, &now));
@@ -91,8 +91,8 @@ pub(super) fn note<C: Circuit>(circuit: &C, nets: &Nets) {
     assert(always, circuit.properties(&past.moment(circuit, &now)));
 }
 
-/// Adds properties to the module being made, from the same ones about this tick and about the edge
-/// before it.
+/// Adds properties to the module under construction: `always` states each about this tick, `steps`
+/// about the edge before it.
 fn assert(always: Vec<Property>, steps: Vec<Property>) {
     for (always, step) in always.into_iter().zip(steps) {
         let property = if always.step { step } else { always };
@@ -107,7 +107,7 @@ fn assert(always: Vec<Property>, steps: Vec<Property>) {
     }
 }
 
-/// The nodes of all signals of the module being made, in the order of the walks.
+/// Nodes of all signals of the module under construction, in the order of the walks.
 struct There {
     inputs: Vec<Id>,
     registers: Vec<Id>,
@@ -142,7 +142,7 @@ impl There {
         }
     }
 
-    /// Everything as it was a tick ago.
+    /// Returns the nodes of one tick ago.
     fn past(&self) -> There {
         let past = |nodes: &[Id]| {
             let nodes = nodes.iter();
@@ -173,7 +173,7 @@ impl There {
         Moment { i, q, w, p, next }
     }
 
-    /// Registers, and nets where a part has them.
+    /// Returns a source of the registers, and of the nets where a part has them.
     fn again(&self) -> Again<'_> {
         Again {
             registers: Nodes(self.registers.iter()),
@@ -183,7 +183,7 @@ impl There {
     }
 }
 
-/// Nodes that are there, in the order of the walks.
+/// Source of existing nodes, in the order of the walks.
 struct Again<'a> {
     registers: Nodes<'a>,
     nets: Nodes<'a>,

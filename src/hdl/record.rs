@@ -1,74 +1,74 @@
-//! Records of signals, for any view of a signal.
+//! Records of signals, generic over the view of a signal.
 
 use super::memory::{Contents, Written};
 use super::view::View;
 use crate::hdl::{Field, Kind, Role, Shape};
 use std::sync::Arc;
 
-/// A struct of signals that belong to a `C`, as a [`View`] sees them: made by
+/// Struct of signals that belong to a `C`, as a [`View`] sees them; declared by
 /// [`signals!`](crate::hdl::signals).
 ///
-/// A walk goes through the leaves in the order of declaration and never branches on a value, so the
-/// place of a leaf in the walk is its identity. Widths are those that the `C` says.
+/// A walk goes through the leaves in declaration order and never branches on a value, so the
+/// position of a leaf in the walk identifies it. The `C` determines the widths.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no record of signals of `{C}`",
     note = "records are declared by `signals! {{ for {C} as c; pub struct In {{ … }} }}`; where there \
             are no signals stands `Nothing`"
 )]
 pub trait Record<C: ?Sized, V: View>: Walk<V> {
-    /// Makes one with each leaf given by `source`.
+    /// Creates a record; `source` gives each leaf.
     fn make(of: &C, field: &'static Field, source: &mut dyn Source) -> Self;
 }
 
-/// A record that can be walked over, whatever it belongs to.
+/// Record that can be walked over, whatever it belongs to.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no record of signals",
     note = "records are declared by `signals!`; where there are no signals stands `Nothing`"
 )]
 pub trait Walk<V: View>: Sized + 'static {
-    /// Where it is declared.
+    /// Location of the declaration.
     const SITE: Site;
     /// Shows each leaf to `sink`.
     fn visit(&self, field: &'static Field, sink: &mut dyn Sink);
-    /// Adds what it would show of its words.
+    /// Appends the tokens of its words, in the order of [`visit`](Self::visit).
     fn words(&self, words: &mut Vec<u64>);
 }
 
-/// A place in a source file.
+/// Source location.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Site {
-    /// The file.
+    /// File.
     pub file: &'static str,
-    /// The line, from 1.
+    /// Line, from 1.
     pub line: u32,
-    /// The column, from 1.
+    /// Column, from 1.
     pub column: u32,
 }
 
-/// Which leaves a walk over parts is for: registers come before nets.
+/// Pass of a walk over parts: registers come before nets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pass {
     /// Registers and memories.
     Registers,
-    /// Nets, and ports in of parts.
+    /// Nets, and input ports of parts.
     Nets,
 }
 
-/// The words of a memory, for a view.
+/// Words of a memory, for a view.
 #[derive(Debug, Clone)]
 pub struct Cells {
-    /// The memory, or the leaf that is its first word.
+    /// Index of the memory, or of the leaf that is its first word.
     pub first: usize,
-    /// The number of words.
+    /// Number of words.
     pub words: usize,
     /// Width of a word in bits.
     pub width: usize,
-    /// What they are.
+    /// Values of the words.
     pub contents: Arc<[u64]>,
 }
 
 impl Cells {
-    /// Those of a memory of that shape from there on, without what they are.
+    /// Returns the words of a memory of that shape from `first` on, without values.
     pub fn at(first: usize, shape: MemoryShape) -> Self {
         Cells {
             first,
@@ -79,18 +79,18 @@ impl Cells {
     }
 }
 
-/// Numbers the leaves of a circuit as walks over its records come to them: ports in, registers and
-/// nets each from their first.
+/// Numbers the leaves of a circuit in the order in which walks over its records reach them: input
+/// ports, registers and nets each count from their own first leaf.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Places {
-    /// The next of each.
+    /// Next leaf of each role.
     pub next: [usize; 3],
-    /// Which of them leaves to come are of.
+    /// Role of the leaves to come.
     pub role: Role,
 }
 
 impl Places {
-    /// The first of so many leaves that come now.
+    /// Returns the first of the next `leaves` leaves, and passes over them.
     #[inline]
     pub fn take(&mut self, leaves: usize) -> usize {
         let next = &mut self.next[self.role as usize];
@@ -98,7 +98,7 @@ impl Places {
         *next - leaves
     }
 
-    /// Leaves to come are of this pass.
+    /// Sets the pass of the leaves to come.
     #[inline]
     pub fn pass(&mut self, pass: Pass) {
         self.role = match pass {
@@ -107,7 +107,7 @@ impl Places {
         };
     }
 
-    /// The pass.
+    /// Returns the current pass.
     #[inline]
     pub fn passing(&self) -> Pass {
         match self.role {
@@ -117,24 +117,25 @@ impl Places {
     }
 }
 
-/// Where the leaves of a record come from.
+/// Source of the leaves of a record.
 pub trait Source {
-    /// A struct begins.
+    /// Enters a struct.
     fn enter(&mut self, _field: &'static Field) {}
-    /// The struct entered last ends.
+    /// Leaves the struct entered last.
     fn leave(&mut self) {}
-    /// What comes next is element `index` of an array.
+    /// Marks the next leaf or struct as element `index` of an array.
     fn element(&mut self, _index: usize) {}
-    /// Leaves to come are of this pass.
+    /// Sets the pass of the leaves to come.
     fn pass(&mut self, _pass: Pass) {}
-    /// The pass.
+    /// Returns the current pass.
     fn passing(&self) -> Pass {
         Pass::Registers
     }
-    /// A word; `power_on` is what a register holds then, before it is cut to the word.
+    /// Returns the token of a word; `power_on` is a register's power-on value, before it is cut to
+    /// the word.
     fn word(&mut self, field: &'static Field, shape: Shape, power_on: i128) -> u64;
-    /// A memory of so many words, each of which is called `label`; unless overridden, nobody looks at
-    /// its words.
+    /// Returns the cells of a memory of `shape.words` words, each named after `label`. By default
+    /// the words are ignored.
     fn memory(
         &mut self,
         _field: &'static Field,
@@ -146,32 +147,32 @@ pub trait Source {
     }
 }
 
-/// Words and width of a memory.
+/// Number of words and width of a memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MemoryShape {
-    /// The number of words; for a RAM 2^address.
+    /// Number of words; 2^address for a RAM.
     pub words: usize,
     /// Width of a word in bits.
     pub width: usize,
-    /// Width of the address of a RAM.
+    /// Width of the address of a RAM in bits.
     pub address: Option<usize>,
 }
 
-/// What looks at the leaves of a record.
+/// Receiver of the leaves of a record.
 pub trait Sink {
-    /// A struct begins.
+    /// Enters a struct.
     fn enter(&mut self, _field: &'static Field) {}
-    /// The struct entered last ends.
+    /// Leaves the struct entered last.
     fn leave(&mut self) {}
-    /// What comes next is element `index` of an array.
+    /// Marks the next leaf or struct as element `index` of an array.
     fn element(&mut self, _index: usize) {}
-    /// A word.
+    /// Receives a word.
     fn word(&mut self, field: &'static Field, token: u64);
-    /// A memory.
+    /// Receives a memory.
     fn memory(&mut self, _field: &'static Field, _written: Written) {}
 }
 
-/// No signals at all.
+/// Empty record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Nothing;
 
@@ -197,7 +198,7 @@ pub const BIT: Shape = Shape {
     width: 1,
 };
 
-/// An unsigned word.
+/// Returns the shape of an unsigned word.
 pub const fn unsigned(width: usize) -> Shape {
     Shape {
         kind: Kind::Unsigned,
@@ -205,7 +206,7 @@ pub const fn unsigned(width: usize) -> Shape {
     }
 }
 
-/// A two's complement word.
+/// Returns the shape of a two's complement word.
 pub const fn signed(width: usize) -> Shape {
     Shape {
         kind: Kind::Signed,

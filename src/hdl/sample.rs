@@ -1,4 +1,4 @@
-//! A tick as numbers.
+//! Numeric view of a tick.
 
 use super::Circuit;
 use super::memory::Contents;
@@ -15,71 +15,72 @@ use std::sync::{Arc, OnceLock};
 
 /// All signals of a circuit inside another, as numbers.
 pub struct Values<C: Circuit> {
-    /// Ports in.
+    /// Input ports.
     pub i: C::In<Value>,
     /// Registers.
     pub q: C::Reg<Value>,
     /// Nets.
     pub w: C::Net<Value>,
-    /// The circuits inside.
+    /// Circuits inside.
     pub p: C::Parts<Value>,
 }
 
 /// All registers of a circuit, as numbers.
 pub struct Registers<C: Circuit> {
-    /// Its own.
+    /// Registers of the circuit itself.
     pub q: C::Reg<Value>,
-    /// Those of the circuits inside.
+    /// Registers of the circuits inside.
     pub p: C::Parts<Kept>,
 }
 
-/// All signals of a circuit at one tick, settled: what stands in the waves while `clk` is high.
+/// All signals of a circuit at one tick, settled: the values that the waves show while `clk` is
+/// high.
 ///
-/// Records are made when they are first looked at; [`get`](Self::get) makes none.
+/// Records are made on first access; [`get`](Self::get) makes none.
 pub struct Sample<'a, C: Circuit> {
-    /// The tick, from 0.
+    /// Number of the tick, from 0.
     pub tick: u64,
-    /// Ports in.
+    /// Input ports.
     pub i: &'a Lazy<'a, C::In<Value>>,
     /// Registers.
     pub q: &'a Lazy<'a, C::Reg<Value>>,
     /// Nets.
     pub w: &'a Lazy<'a, C::Net<Value>>,
-    /// The circuits inside.
+    /// Circuits inside.
     pub p: &'a Lazy<'a, C::Parts<Value>>,
-    /// Its registers and those of the circuits inside, without nets: a search makes this record once
-    /// for a state, and [`p`](Self::p) for every transition.
+    /// Registers of the circuit and of those inside it, without nets. A search makes this record
+    /// once per state, and [`p`](Self::p) once per transition.
     pub registers: &'a Lazy<'a, Registers<C>>,
-    /// The places of all signals.
+    /// Places of all signals.
     known: &'a Known<C>,
     engine: &'a Engine,
-    /// Whether what stands beside the circuit is left out.
+    /// True if the signals beside the circuit are left out.
     alone: bool,
 }
 
-/// The registers of a circuit between two ticks.
+/// Registers of a circuit between two ticks.
 pub struct State<'a, C: Circuit> {
-    /// Its own.
+    /// Registers of the circuit itself.
     pub q: &'a Lazy<'a, C::Reg<Value>>,
-    /// Those of the circuits inside.
+    /// Registers of the circuits inside.
     pub p: &'a Lazy<'a, C::Parts<Kept>>,
     engine: &'a Engine,
 }
 
-/// Ports in and registers that are at hand.
+/// Input ports and registers that are already records.
 pub(crate) type Given<'g, C> = (
     Option<&'g <C as Circuit>::In<Value>>,
     Option<&'g Registers<C>>,
 );
 
-/// The circuit and where its signals are.
+/// Circuit and the places of its signals.
 pub(crate) struct Known<C: Circuit> {
     pub circuit: C,
-    /// How many ports in stand beside it.
+    /// Number of input ports beside the circuit.
     pub beside: usize,
-    /// The values of ports in, those beside it last.
+    /// Ranges of the input ports; those beside the circuit come last.
     pub ports: Ports,
-    /// How many nets are its own.
+    /// Number of the circuit's own nets.
     nets: usize,
     signals: OnceLock<Signals<C>>,
 }
@@ -95,20 +96,20 @@ impl<C: Circuit> Known<C> {
         }
     }
 
-    /// The places of all signals.
+    /// Returns the places of all signals.
     pub fn signals(&self) -> &Signals<C> {
         let signals = || Signals::of(&self.circuit, self.beside);
         self.signals.get_or_init(signals)
     }
 
-    /// How many ports in are the circuit's own.
+    /// Returns the number of the circuit's own input ports.
     pub fn own_ports(&self) -> usize {
         self.ports.count() - self.beside
     }
 }
 
-/// The leaves of an engine, without those of signals that stand beside the circuit: these come last
-/// among its ports in.
+/// Leaves of an engine without the signals beside the circuit, which come last among its input
+/// ports.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct View<'a> {
     pub engine: &'a Engine,
@@ -117,7 +118,7 @@ pub(crate) struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    /// All of them.
+    /// Returns a view of all leaves.
     pub fn of(engine: &'a Engine) -> Self {
         View {
             engine,
@@ -134,7 +135,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// What a leaf of the circuit is.
+    /// Returns the word of a leaf of the circuit.
     #[inline]
     pub fn leaf(self, leaf: usize) -> u64 {
         match leaf < self.first {
@@ -143,7 +144,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The leaf of the circuit that one of the engine is.
+    /// Converts a leaf of the engine to a leaf of the circuit.
     #[inline]
     pub fn shown(self, leaf: u32) -> Option<u32> {
         match (leaf as usize).checked_sub(self.first) {
@@ -154,9 +155,9 @@ impl<'a> View<'a> {
     }
 }
 
-/// A record that is made when it is first looked at.
+/// Record that is made on first access.
 pub struct Lazy<'a, S> {
-    /// One that is at hand.
+    /// Record that exists already.
     given: Option<&'a S>,
     made: OnceCell<S>,
     make: &'a dyn Fn() -> S,
@@ -202,7 +203,7 @@ impl<C: Circuit> Sample<'_, C> {
         Self::show_given(tick, known, engine, (None, None), show)
     }
 
-    /// The same where ports in and registers are at hand.
+    /// Shows a tick whose input ports and registers are already records.
     #[inline]
     pub(crate) fn show_given<T>(
         tick: u64,
@@ -224,7 +225,7 @@ impl<C: Circuit> Sample<'_, C> {
             }),
             w: &Lazy::new(None, &|| {
                 let mut leaves = Leaves::of(engine, Role::Net);
-                // Its own come last.
+                // The circuit's own nets come last.
                 leaves.places.next[Role::Net as usize] = engine.leaves() - known.nets;
                 circuit.make_nets(&mut leaves)
             }),
@@ -238,7 +239,7 @@ impl<C: Circuit> Sample<'_, C> {
         })
     }
 
-    /// The leaves of the circuit.
+    /// Returns the leaves of the circuit.
     pub(crate) fn view(&self) -> View<'_> {
         match self.alone {
             false => View::of(self.engine),
@@ -246,7 +247,7 @@ impl<C: Circuit> Sample<'_, C> {
         }
     }
 
-    /// The same tick without what stands beside the circuit.
+    /// Returns the same tick without the signals beside the circuit.
     pub(crate) fn alone(&self) -> Sample<'_, C> {
         Sample {
             alone: true,
@@ -254,24 +255,24 @@ impl<C: Circuit> Sample<'_, C> {
         }
     }
 
-    /// What stands at a place.
+    /// Returns the value at a place.
     #[inline]
     pub fn get<T: Number>(&self, at: At<T>) -> T {
         at.of(self.engine)
     }
 
-    /// What one of the [signals](Signals) is: `now.see(|s| s.w.enable)`.
+    /// Returns the value of one of the [signals](Signals): `now.see(|s| s.w.enable)`.
     #[inline]
     pub fn see<T: Number>(&self, signal: impl FnOnce(&Signals<C>) -> At<T>) -> T {
         self.get(signal(self.known.signals()))
     }
 
-    /// What runs.
+    /// Returns the engine that runs the circuit.
     pub fn engine(&self) -> &Engine {
         self.engine
     }
 
-    /// The registers of the next tick, if no reset comes.
+    /// Returns the registers of the next tick, if there is no reset.
     pub fn next(&self) -> Registers<C> {
         let mut engine = self.engine.clone();
         engine.edge();
@@ -294,7 +295,7 @@ impl<C: Circuit> State<'_, C> {
         })
     }
 
-    /// What a register holds, by its place.
+    /// Returns the value of a register by its place.
     #[inline]
     pub fn get<T: Number>(&self, at: At<T>) -> T {
         at.of(self.engine)
@@ -305,12 +306,12 @@ fn own_registers<C: Circuit>(circuit: &C, engine: &Engine) -> C::Reg<Value> {
     circuit.make_registers(&mut Leaves::of(engine, Role::Register))
 }
 
-/// The registers of a circuit and of those inside it.
+/// Returns the registers of a circuit and of those inside it.
 pub(crate) fn all_registers<C: Circuit>(circuit: &C, engine: &Engine) -> Registers<C> {
     circuit.make_kept(&mut Leaves::of(engine, Role::Register))
 }
 
-/// What the leaves of an engine are, in the order of a walk.
+/// Source of an engine's words, in the order of a walk.
 struct Leaves<'a> {
     engine: &'a Engine,
     spots: &'a [Spot],

@@ -1,50 +1,50 @@
-//! What is known of a signal without its value.
+//! Description of a signal without its value.
 
 use std::borrow::Cow;
 
-/// How a signal is meant to be looked at.
+/// Display format of a signal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// A number.
+    /// Decimal number.
     Decimal,
-    /// A bit pattern or an address.
+    /// Bit pattern or address.
     Hex,
-    /// A number whose course over time matters: drawn as an analog trace.
+    /// Number drawn as an analog trace, since its course over time matters.
     Analog,
-    /// A state: the value is an index into these names.
+    /// State: the value is an index into these names.
     States(&'static [&'static str]),
-    /// On an array: the names of its elements, instead of the array's name and an index.
+    /// Names for the elements of an array, in place of the array's name and an index.
     Elements(&'static [&'static str]),
 }
 
-/// Which part of a circuit a signal stands in.
+/// Role of a signal in its circuit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Role {
-    /// A port in.
+    /// Input port.
     Input,
-    /// A flip-flop.
+    /// Flip-flop or memory.
     Register,
-    /// A combinational net.
+    /// Combinational net.
     Net,
 }
 
-/// What is known of a field of a `signals!` struct without looking at its value.
+/// Description of a field of a `signals!` struct.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Field {
-    /// Its name; empty where a struct stands for a part of a circuit and adds no scope.
+    /// Name; empty for a struct that stands for a part of a circuit and adds no scope.
     pub name: &'static str,
-    /// Its doc comment.
+    /// Doc comment.
     pub doc: &'static str,
-    /// How it is meant to be looked at.
+    /// Display format.
     pub format: Format,
-    /// Whether it is visible outside its module: a port out, where it is a register or a net.
+    /// True if the field is visible outside its module: a register or net is an output port then.
     pub public: bool,
-    /// The part of a circuit that starts here, if one does.
+    /// Role of the part of a circuit that starts here, if one does.
     pub role: Option<Role>,
 }
 
 impl Field {
-    /// A field with a name and nothing else said of it.
+    /// Creates a field with a name only.
     pub const fn named(name: &'static str) -> Field {
         Field {
             name,
@@ -55,7 +55,7 @@ impl Field {
         }
     }
 
-    /// The struct of one part of a circuit: its fields stand in the circuit's own scope.
+    /// Creates the field of one part of a circuit, whose signals are in the circuit's own scope.
     pub const fn part(role: Role) -> Field {
         Field {
             role: Some(role),
@@ -63,7 +63,7 @@ impl Field {
         }
     }
 
-    /// Its doc comment as plain text: in one line, links by their names alone.
+    /// Returns the doc comment as plain text: one line, links replaced by their names.
     pub fn plain_doc(&self) -> String {
         let mut text = String::new();
         let mut rest = self.doc;
@@ -86,7 +86,7 @@ impl Field {
         text.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
-    /// The name of element `index` where this field is an array.
+    /// Returns the name of element `index` if the field is an array.
     pub fn element(&self, index: usize) -> Cow<'static, str> {
         match self.format {
             Format::Elements(names) if index < names.len() => Cow::Borrowed(names[index]),
@@ -95,7 +95,7 @@ impl Field {
     }
 }
 
-/// What kind of word a leaf is.
+/// Kind of word of a leaf.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
     /// One wire.
@@ -106,17 +106,17 @@ pub enum Kind {
     Signed,
 }
 
-/// Kind and width of a leaf.
+/// Kind and width of a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Shape {
-    /// What kind of word.
+    /// Kind of the word.
     pub kind: Kind,
     /// Width in bits.
     pub width: usize,
 }
 
 impl Shape {
-    /// Least and greatest number of a word.
+    /// Returns least and greatest number of the word.
     pub fn range(self) -> (i128, i128) {
         let width = self.width.clamp(1, 64);
         match self.kind {
@@ -125,7 +125,7 @@ impl Shape {
         }
     }
 
-    /// Number that 64 bits mean before they are cut to the word.
+    /// Returns the number that 64 bits mean before they are cut to the word.
     pub(crate) fn number(self, bits: u64) -> i128 {
         match self.kind {
             Kind::Signed => (bits as i64).into(),

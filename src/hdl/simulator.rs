@@ -1,4 +1,4 @@
-//! Runs a circuit tick by tick.
+//! Tick-by-tick simulation of a circuit.
 
 mod run;
 
@@ -17,8 +17,8 @@ use std::sync::Arc;
 
 /// A circuit that is clocked tick by tick.
 ///
-/// At tick n inputs are applied, nets settle, everything is sampled; then the edge makes the
-/// registers of tick n + 1. So a register shows at n + 1 what was decided at n.
+/// In tick n inputs are applied, nets settle, and everything is sampled. Then the edge makes the
+/// registers of tick n + 1, so a register shows at n + 1 what was decided at n.
 ///
 /// ```
 /// use motion_rtl::circuits::blocks::EnableCounter;
@@ -37,12 +37,12 @@ pub struct Simulator<C: Circuit> {
     tick: u64,
     settled: bool,
     known: Arc<Known<C>>,
-    /// Room for ports in that are applied.
+    /// Buffer for input ports.
     words: Vec<u64>,
 }
 
-/// Two runs that go on from the same tick, each with inputs of its own.
-// Written out because a derive would ask the circuit itself to be `Clone`.
+/// Creates an independent copy: both continue from the same tick, each with its own inputs.
+// Written by hand: a derive would require `C: Clone`.
 impl<C: Circuit> Clone for Simulator<C> {
     fn clone(&self) -> Self {
         Simulator {
@@ -63,7 +63,7 @@ impl<C: Circuit> fmt::Debug for Simulator<C> {
     }
 }
 
-/// Chooses what is watched; see [`Simulator::watching`].
+/// Chooses the watched signals; see [`Simulator::watching`].
 pub struct Watcher<'a, C: Circuit> {
     signals: &'a Signals<C>,
     model: &'a Model,
@@ -71,18 +71,18 @@ pub struct Watcher<'a, C: Circuit> {
 }
 
 impl<C: Circuit> Watcher<'_, C> {
-    /// What is at a place is watched.
+    /// Watches the signal at a place.
     pub fn at<T>(&self, at: At<T>) -> At<T> {
         self.watched.borrow_mut().push(at.leaf());
         at
     }
 
-    /// What is at several places is watched.
+    /// Watches the signals at several places.
     pub fn each<T>(&self, places: &[At<T>]) -> Vec<At<T>> {
         places.iter().map(|at| self.at(*at)).collect()
     }
 
-    /// Watches every port out and returns their leaves in the order of the Verilog's ports.
+    /// Watches all output ports; returns their leaves in the port order of the Verilog module.
     pub fn ports_out(&self) -> Vec<usize> {
         let ports = self.model.ports_out();
         self.watched.borrow_mut().extend(&ports);
@@ -105,21 +105,23 @@ impl<C: Circuit> fmt::Debug for Watcher<'_, C> {
 }
 
 impl<C: Circuit> Simulator<C> {
-    /// The circuit at power-on, before tick 0, all ports in low.
+    /// Creates the circuit in the power-on state, before tick 0, with all input ports low.
     ///
     /// # Errors
-    /// All that is wrong with the circuit.
+    /// Returns all mistakes of the circuit.
     pub fn new(circuit: &C) -> Result<Self, EngineError> {
         let (simulator, ()) = Self::watching(circuit, true, |_| ())?;
         Ok(simulator)
     }
 
-    /// The circuit at power-on, of which nothing is looked at but what `choose` chooses, or `all`.
+    /// Creates the circuit in the power-on state; watches only the signals that `choose` picks, or
+    /// all signals if `all` is true. Other signals can still be read, at the cost of computing all
+    /// nets.
     ///
-    /// Only nets that are looked at, or that registers need, are computed.
+    /// Computes only nets that are watched or that registers need.
     ///
     /// # Errors
-    /// All that is wrong with the circuit.
+    /// Returns all mistakes of the circuit.
     pub fn watching<T>(
         circuit: &C,
         all: bool,
@@ -129,11 +131,11 @@ impl<C: Circuit> Simulator<C> {
         Ok(Self::of_model(circuit, &model, 0, all, choose))
     }
 
-    /// The same with signals that stand in the waves beside it; [`show`](Self::show) says what they
-    /// are.
+    /// Creates the circuit as [`watching`](Self::watching) does, with signals beside it in the
+    /// waves; [`show`](Self::show) sets their values.
     ///
     /// # Errors
-    /// All that is wrong with the circuit.
+    /// Returns all mistakes of the circuit.
     pub fn watching_beside<B: Beside, T>(
         circuit: &C,
         beside: &B,
@@ -176,41 +178,41 @@ impl<C: Circuit> Simulator<C> {
         (simulator, chosen)
     }
 
-    /// It compiled now, instead of when that pays; without the feature `jit`, and where there is no
-    /// compiler for the machine, as it was.
+    /// Compiles the circuit at once, rather than when it pays. Does nothing without the feature
+    /// `jit`, or if there is no compiler for the machine.
     pub fn compile(&mut self) {
         self.engine.compile();
     }
 
-    /// It on the interpreter, however long it runs.
+    /// Keeps the circuit on the interpreter, however long it runs.
     pub fn interpret(&mut self) {
         self.engine.interpret();
     }
 
-    /// The circuit.
+    /// Returns the circuit.
     pub fn circuit(&self) -> &C {
         &self.known.circuit
     }
 
-    /// The tick to come.
+    /// Returns the number of the next tick.
     pub fn tick(&self) -> u64 {
         self.tick
     }
 
-    /// What runs.
+    /// Returns the engine that runs the circuit.
     pub fn engine(&self) -> &Engine {
         &self.engine
     }
 
-    /// The places of all signals.
+    /// Returns the places of all signals.
     pub fn signals(&self) -> &Signals<C> {
         self.known.signals()
     }
 
-    /// Sets a port in, from this tick on.
+    /// Sets an input port, from this tick on.
     ///
     /// # Errors
-    /// The value does not fit the port, or the place is not a port in.
+    /// Returns an error if the value does not fit the port, or the place is not an input port.
     #[inline]
     pub fn set<T: Number>(
         &mut self,
@@ -221,11 +223,11 @@ impl<C: Circuit> Simulator<C> {
         self.put(port.leaf(), value.word())
     }
 
-    /// Sets a port in by its number, counted from 0 in the order of declaration, to the bits of
-    /// `word`, from this tick on: for recorded inputs.
+    /// Sets an input port to the bits of `word`, from this tick on, by its number from 0 in
+    /// declaration order. Useful for recorded inputs.
     ///
     /// # Errors
-    /// The word is wider than the port, or there is no such port.
+    /// Returns an error if the word is wider than the port, or there is no such port.
     pub fn set_port(&mut self, port: usize, word: u64) -> Result<(), RunError> {
         let checked = self.known.ports.check_word(port, word);
         checked.map_err(RunError::at(self.tick))?;
@@ -233,7 +235,7 @@ impl<C: Circuit> Simulator<C> {
         Ok(())
     }
 
-    /// Sets a port in to a number of 64 bits.
+    /// Sets an input port to a number of 64 bits.
     #[inline]
     fn put(&mut self, port: usize, number: u64) -> Result<(), RunError> {
         let bits = self.known.ports.bits(port, number);
@@ -248,10 +250,11 @@ impl<C: Circuit> Simulator<C> {
         self.settled = false;
     }
 
-    /// Sets all ports in, from this tick on.
+    /// Sets all input ports, from this tick on.
     ///
     /// # Errors
-    /// A value does not fit its port, or an array has another length; nothing is set then.
+    /// Returns an error if a value does not fit its port, or an array has another length; nothing
+    /// is set then.
     #[inline]
     pub fn apply(&mut self, i: &C::In<Value>) -> Result<(), RunError> {
         self.words.clear();
@@ -264,10 +267,10 @@ impl<C: Circuit> Simulator<C> {
         Ok(())
     }
 
-    /// Says what stands beside it, from this tick on.
+    /// Sets the signals beside the circuit, from this tick on.
     ///
     /// # Errors
-    /// A value does not fit its signal.
+    /// Returns an error if a value does not fit its signal.
     pub fn show<B: Beside>(&mut self, beside: &B::Signals<Value>) -> Result<(), RunError> {
         let ports = self.known.own_ports();
         let mut numbers = (ports..).zip(pack::tokens(beside));
@@ -282,14 +285,14 @@ impl<C: Circuit> Simulator<C> {
         }
     }
 
-    /// What stands at a place in this tick, settled.
+    /// Returns the value at a place in this tick, settled.
     #[inline]
     pub fn get<T: Number>(&mut self, at: At<T>) -> T {
         self.settle();
         at.of(&self.engine)
     }
 
-    /// What one of the [signals](Signals) is in this tick, settled.
+    /// Returns the value of one of the [signals](Signals) in this tick, settled.
     #[inline]
     pub fn see<T: Number>(&mut self, signal: impl FnOnce(&Signals<C>) -> At<T>) -> T {
         let at = signal(self.known.signals());
@@ -309,23 +312,23 @@ impl<C: Circuit> Simulator<C> {
         State::show(&self.known, &self.engine, show)
     }
 
-    /// The registers of this tick.
+    /// Returns the registers of this tick.
     pub fn registers(&self) -> super::Registers<C> {
         super::sample::all_registers(&self.known.circuit, &self.engine)
     }
 
-    /// Goes on to the next tick.
+    /// Advances to the next tick.
     #[inline]
     pub fn step(&mut self) {
         self.settle();
         self.edge();
     }
 
-    /// Goes on to the next tick by a synchronous reset.
+    /// Advances to the next tick by a synchronous reset.
     ///
-    /// After such an edge every flip-flop has its power-on value. Memories and shift registers have
-    /// no reset, as block RAM has none: they take the edge as always, and what is written in the
-    /// tick of reset is written.
+    /// After that edge every flip-flop has its power-on value. Memories and shift registers have
+    /// no reset, like block RAM: they take the edge as usual, and a write in the tick of the reset
+    /// takes effect.
     pub fn reset(&mut self) {
         self.settle();
         self.engine.reset();
@@ -340,7 +343,8 @@ impl<C: Circuit> Simulator<C> {
         self.settled = false;
     }
 
-    /// What is seen of tick after tick, with ports in as they are: an iterator that steps.
+    /// Returns an iterator that steps and yields the result of `see` for each tick; input ports
+    /// keep their values.
     ///
     /// ```
     /// use motion_rtl::circuits::blocks::EnableCounter;
@@ -367,7 +371,8 @@ impl<C: Circuit> Simulator<C> {
     /// Runs one tick with these inputs and shows its sample.
     ///
     /// # Errors
-    /// A value does not fit its port, as in [`apply`](Self::apply); the tick does not happen then.
+    /// Returns an error if a value does not fit its port, as in [`apply`](Self::apply); the tick
+    /// does not happen then.
     #[inline]
     pub fn step_with<T>(
         &mut self,
@@ -377,10 +382,12 @@ impl<C: Circuit> Simulator<C> {
         self.step_with_reset(false, i, show)
     }
 
-    /// The same; with `rst` high its edge is that of a [reset](Self::reset).
+    /// Runs one tick with these inputs and shows its sample; if `rst` is high its edge is a
+    /// [reset](Self::reset).
     ///
     /// # Errors
-    /// A value does not fit its port, as in [`apply`](Self::apply); the tick does not happen then.
+    /// Returns an error if a value does not fit its port, as in [`apply`](Self::apply); the tick
+    /// does not happen then.
     #[inline]
     pub fn step_with_reset<T>(
         &mut self,

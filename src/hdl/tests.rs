@@ -1,10 +1,10 @@
-//! What is wrong with a circuit is told all at once, with file, line and column.
+//! All mistakes of a circuit are reported at once, with file, line and column.
 
 use super::prelude::*;
 use super::{Nothing, elaborate, netlist};
 use expect_test::{Expect, expect};
 
-/// The mistakes of a circuit, lines counted from that of `from`.
+/// Compares the mistakes of a circuit; lines are counted from `from`.
 fn mistakes<C: Circuit>(circuit: &C, from: u32, expected: &Expect) {
     let wrong = elaborate(circuit).expect_err("something is wrong");
     let mut text = String::new();
@@ -28,7 +28,7 @@ const COUNTER: u32 = line!();
 signals! { for Counter as c;
     /// Ports in.
     pub struct In {
-        /// Added.
+        /// Summand.
         by: U(c.other),
     }
     /// Registers.
@@ -40,7 +40,7 @@ signals! { for Counter as c;
     pub struct Net {
         /// The sum after this tick.
         pub next: U(c.width),
-        /// Nobody else's concern.
+        /// A net that is no port.
         hidden: U(c.width),
     }
 }
@@ -57,7 +57,7 @@ impl Circuit for Counter {
     }
 }
 
-/// A name that stands twice.
+/// Circuit with a duplicate name.
 #[derive(Debug, Clone)]
 struct Twice;
 
@@ -85,7 +85,7 @@ impl Circuit for Twice {
     }
 }
 
-/// A counter within, and what else can be wrong.
+/// Circuit with a counter inside, and one fault of choice.
 #[derive(Debug, Clone)]
 pub struct Around {
     counter: Counter,
@@ -110,12 +110,12 @@ const AROUND: u32 = line!();
 signals! { for Around as c;
     /// Ports in.
     pub struct AroundIn {
-        /// Added.
+        /// Summand.
         by: U(4),
     }
     /// Registers.
     pub struct AroundReg {
-        /// Seen last.
+        /// Latest word.
         last: U(4),
         /// One memory.
         one: Ram(2, 4),
@@ -124,7 +124,7 @@ signals! { for Around as c;
     }
     /// The circuit inside.
     pub struct AroundParts {
-        /// It.
+        /// Counter.
         pub counter: Part<Counter>(c.counter.clone()),
     }
     /// Nets.
@@ -188,7 +188,7 @@ impl Circuit for Around {
     }
 }
 
-/// Names that Verilog makes of others, and a part that is called as what is inside it.
+/// Circuit whose names collide with names that Verilog derives, and with a name inside its part.
 #[derive(Debug, Clone)]
 struct Made;
 
@@ -196,25 +196,25 @@ const MADE: u32 = line!();
 signals! { for Made as _c;
     /// Registers.
     pub struct MadeReg {
-        /// What waits.
+        /// Delay line.
         line: Shift(2, 4),
         /// A memory.
         store: Ram(2, 4),
     }
     /// The circuits inside.
     pub struct MadeParts {
-        /// It is called as one of its ports.
+        /// Part with the name of one of its ports.
         pub sum: Part<Counter>(Counter { width: 4, other: 4 }),
     }
     /// Nets.
     pub struct MadeNet {
-        /// The port of that name.
+        /// Port with the name that Verilog derives.
         sum_next: U(4),
-        /// Another one than that.
+        /// Another such port.
         sum_sum: U(4),
-        /// As loops over words and a file are called.
+        /// Names of loops over words, and of a file.
         loops: [Bit; 4] as Elements(&["line_shift", "line_to", "store_word", "STORE"]),
-        /// As words are called that nobody declares.
+        /// Name of words that nobody declares.
         rom: U(4),
     }
 }

@@ -1,4 +1,4 @@
-//! What a signal is to whoever looks at a record of signals.
+//! Views: the types of a record's signals.
 
 use super::Circuit;
 use super::memory::{Ram, Shift, Written};
@@ -11,11 +11,11 @@ use crate::hdl::{Field, Role};
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// What a signal is to whoever looks at a record: a [`Wire`] while a circuit is elaborated, a
-/// [`Value`] while it runs, a [`Place`] where it is watched.
+/// View of a record's signals: [`Wire`] while a circuit is elaborated, [`Value`] while it runs,
+/// [`Place`] for watched signals.
 ///
-/// Walks over records hand on tokens: the number of a node, a value, the number of a leaf. A view
-/// says what they are.
+/// Walks over records pass tokens on: the number of a node, a value, the number of a leaf. A view
+/// converts between tokens and its types.
 pub trait View: Copy + Debug + 'static {
     /// One wire.
     type Bit: Copy + Debug;
@@ -30,40 +30,40 @@ pub trait View: Copy + Debug + 'static {
     /// A circuit inside another.
     type Part<C: Circuit>;
 
-    /// A wire of a token.
+    /// Converts a token to a wire.
     fn bit(token: u64) -> Self::Bit;
-    /// An unsigned word of `width` bits.
+    /// Converts a token to an unsigned word of `width` bits.
     fn u(token: u64, width: usize) -> Self::U;
-    /// A two's complement word.
+    /// Converts a token to a two's complement word.
     fn i(token: u64, width: usize) -> Self::I;
-    /// A memory.
+    /// Makes a memory of these cells.
     fn ram(cells: Cells) -> Self::Ram;
-    /// A shift register.
+    /// Makes a shift register of these cells.
     fn shift(cells: Cells) -> Self::Shift;
-    /// A circuit inside another.
+    /// Makes a circuit inside another.
     fn part<C: Circuit>(
         circuit: &C,
         field: &'static Field,
         source: &mut dyn Source,
     ) -> Self::Part<C>;
 
-    /// The token of a wire.
+    /// Returns the token of a wire.
     fn of_bit(bit: Self::Bit) -> u64;
-    /// That of an unsigned word.
+    /// Returns the token of an unsigned word.
     fn of_u(word: Self::U) -> u64;
-    /// That of a two's complement word.
+    /// Returns the token of a two's complement word.
     fn of_i(word: Self::I) -> u64;
-    /// What an edge does to a memory.
+    /// Returns the effect of an edge on a memory.
     fn of_ram(_: &Self::Ram) -> Written {
         Written::default()
     }
-    /// What an edge does to a shift register.
+    /// Returns the effect of an edge on a shift register.
     fn of_shift(_: &Self::Shift) -> Written {
         Written::default()
     }
 }
 
-/// The field of a record that is one part of a circuit: its fields stand in the circuit's own scope.
+/// Returns the field of one part of a circuit, whose signals are in the circuit's own scope.
 pub(crate) fn role(role: Role) -> &'static Field {
     match role {
         Role::Input => const { &Field::part(Role::Input) },
@@ -72,36 +72,36 @@ pub(crate) fn role(role: Role) -> &'static Field {
     }
 }
 
-/// While a circuit is elaborated.
+/// View during elaboration.
 #[derive(Debug, Clone, Copy)]
 pub struct Wire;
 
-/// What an edge makes of registers: as [`Wire`], but a memory that was written cannot be read.
+/// View of registers after the edge: as [`Wire`], but a written memory cannot be read.
 #[derive(Debug, Clone, Copy)]
 pub struct Edge;
 
-/// Registers of a part as the circuit around it sees them: memories are the part's own affair. In
-/// [properties](super::Moment) parts are as they are settled.
+/// View of a part's registers from the surrounding circuit: memories are hidden. In
+/// [properties](super::Moment) parts are settled.
 #[derive(Debug, Clone, Copy)]
 pub struct Seen;
 
-/// Numbers.
+/// View as numbers.
 #[derive(Debug, Clone, Copy)]
 pub struct Value;
 
-/// Registers as numbers, without nets: of a tick that is not settled.
+/// View of registers as numbers, without nets, of a tick that is not settled.
 #[derive(Debug, Clone, Copy)]
 pub struct Kept;
 
-/// Places: what is asked for.
+/// View as places to read from.
 #[derive(Debug, Clone, Copy)]
 pub struct Place;
 
-/// Nothing but names and widths.
+/// View without values: names and widths only.
 #[derive(Debug, Clone, Copy)]
 pub struct Shapes;
 
-/// Words of a netlist.
+/// Defines the types of a netlist view.
 macro_rules! words {
     () => {
         type Bit = Bit;
@@ -184,7 +184,7 @@ impl View for Seen {
         let i = C::In::make(circuit, role(Role::Input), source);
         source.pass(Pass::Registers);
         let q = C::Reg::make(circuit, role(Role::Register), source);
-        // What is inside a part is its own affair; its leaves are passed by.
+        // A part hides its inside; its leaves are passed over.
         C::Parts::<Shapes>::make(circuit, role(Role::Register), source);
         source.pass(Pass::Nets);
         C::Parts::<Shapes>::make(circuit, role(Role::Net), source);
@@ -194,7 +194,7 @@ impl View for Seen {
     }
 }
 
-/// Numbers from tokens.
+/// Defines conversions between tokens and numbers.
 macro_rules! numbers {
     () => {
         type Bit = bool;
@@ -317,7 +317,7 @@ impl View for Shapes {
     fn i(_: u64, _: usize) {}
     fn ram(_: Cells) {}
     fn shift(_: Cells) {}
-    /// The registers or the nets of all that is inside, as the source has it.
+    /// Walks over the registers or the nets of a part, depending on the source's pass.
     fn part<C: Circuit>(circuit: &C, field: &'static Field, source: &mut dyn Source) {
         source.enter(field);
         match source.passing() {
@@ -347,7 +347,7 @@ type Inner<C, V> = (
     <C as Circuit>::Net<V>,
 );
 
-/// All records of a circuit but its ports in.
+/// Makes all records of a circuit except its input ports.
 pub(super) fn inner<C: Circuit, V: View>(circuit: &C, source: &mut dyn Source) -> Inner<C, V> {
     source.pass(Pass::Registers);
     let q = C::Reg::make(circuit, role(Role::Register), source);
@@ -357,7 +357,7 @@ pub(super) fn inner<C: Circuit, V: View>(circuit: &C, source: &mut dyn Source) -
     (q, p, w)
 }
 
-/// All records of a part.
+/// Makes all records of a part.
 fn whole<C: Circuit, V: View>(
     circuit: &C,
     field: &'static Field,
@@ -373,7 +373,7 @@ fn whole<C: Circuit, V: View>(
 
 /// Walks over the registers of a circuit: its own, then those of its parts.
 pub(crate) fn registers<C: Circuit>(circuit: &C, source: &mut dyn Source) {
-    // Of a circuit that cannot be there are none; its elaboration says why.
+    // An impossible circuit has none; its elaboration reports why.
     if circuit.objection().is_some() {
         return;
     }
@@ -382,7 +382,7 @@ pub(crate) fn registers<C: Circuit>(circuit: &C, source: &mut dyn Source) {
     C::Parts::<Shapes>::make(circuit, role(Role::Register), source);
 }
 
-/// Walks over the nets of a circuit: those of its parts with their ports in, then its own.
+/// Walks over the nets of a circuit: those of its parts with their input ports, then its own.
 pub(crate) fn nets<C: Circuit>(circuit: &C, source: &mut dyn Source) {
     if circuit.objection().is_some() {
         return;

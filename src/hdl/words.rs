@@ -101,7 +101,7 @@ pub trait Word: Copy {
     fn of(id: Id) -> Self;
 }
 
-/// What stands beside a word: another, or a constant, which takes the width of the word.
+/// Operand beside a word: another word, or a constant, which takes the width of the word.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` cannot stand beside a word `{W}`",
     label = "neither a `{W}` nor a constant for one",
@@ -142,7 +142,7 @@ impl Operand<I> for i64 {
     }
 }
 
-/// What a [multiplexer](Bit::mux) can choose between: words of one kind, or such a word and a
+/// Pair that a [multiplexer](Bit::mux) can choose between: words of one kind, or such a word and a
 /// constant.
 #[diagnostic::on_unimplemented(
     message = "`mux` cannot choose between `{Self}` and `{Other}`",
@@ -152,7 +152,7 @@ impl Operand<I> for i64 {
     note = "two words are of the same kind: `Bit`, `U` or `I`"
 )]
 pub trait Choice<Other> {
-    /// What comes out.
+    /// Type of the result.
     type Word;
     #[doc(hidden)]
     fn choose(self, choose: Bit, other: Other) -> Self::Word;
@@ -173,7 +173,7 @@ fn binary(operator: Operator, a: Id, b: Id, what: &str) -> Id {
     node(Node::Binary(operator, a, b), build::shape(a))
 }
 
-/// The second of two operands, where both have the same width; otherwise that is a mistake.
+/// Returns the second of two operands if both have the same width. Otherwise records a mistake.
 #[track_caller]
 fn same(a: Id, b: Id, what: &str) -> Id {
     let (left, right) = (build::shape(a), build::shape(b));
@@ -189,7 +189,7 @@ fn same(a: Id, b: Id, what: &str) -> Id {
     resize(b, left)
 }
 
-/// Bits that a word has not.
+/// Records a mistake: access to bits beyond a word's width.
 #[cold]
 #[track_caller]
 fn not_there(what: String, word: Id) {
@@ -241,7 +241,7 @@ word!(Bit, bool);
 word!(U, u64);
 word!(I, i64);
 
-/// An operator on two words of the same width, or on a word and a constant.
+/// Implements an operator on two words of the same width, or on a word and a constant.
 macro_rules! operator {
     ($word:ident, $trait:ident, $method:ident, $operator:ident, $what:literal, $number:ty) => {
         impl $trait for $word {
@@ -316,32 +316,32 @@ impl Neg for I {
 }
 
 impl Bit {
-    /// Low.
+    /// Returns a low wire.
     #[track_caller]
     pub fn low() -> Self {
         false.into()
     }
 
-    /// High.
+    /// Returns a high wire.
     #[track_caller]
     pub fn high() -> Self {
         true.into()
     }
 
-    /// `then` where this bit is high, `other` where it is low. One of them may be a constant.
+    /// Returns `then` if this bit is high, else `other`. One of them may be a constant.
     #[track_caller]
     pub fn mux<T: Choice<O>, O>(self, then: T, other: O) -> T::Word {
         then.choose(self, other)
     }
 
-    /// The bit as a word of one bit.
+    /// Returns the bit as a word of one bit.
     #[track_caller]
     pub fn word(self) -> U {
         U(node(Node::Cast(self.0), unsigned(1)))
     }
 }
 
-/// The product of two words in `shape`.
+/// Returns the product of two words in `shape`.
 #[track_caller]
 fn product(a: Id, b: Id, shape: Shape) -> Id {
     let shape = build::word(shape, "a product");
@@ -349,61 +349,61 @@ fn product(a: Id, b: Id, shape: Shape) -> Id {
     node(Node::Binary(Operator::Multiply, a, b), shape)
 }
 
-/// What unsigned and two's complement words have in common.
+/// Implements the common methods of unsigned and two's complement words.
 macro_rules! arithmetic {
     ($word:ident, $shape:ident) => {
         impl $word {
-            /// Width in bits.
+            /// Returns the width in bits.
             pub fn width(self) -> usize {
                 build::shape(self.0).width
             }
 
-            /// High where both are the same.
+            /// Returns high if both words are equal.
             #[track_caller]
             pub fn equals(self, other: impl Operand<$word>) -> Bit {
                 compare(Operator::Equal, self, other)
             }
 
-            /// High where this word is less than `other`.
+            /// Returns high if this word is less than `other`.
             #[track_caller]
             pub fn below(self, other: impl Operand<$word>) -> Bit {
                 compare(Operator::Below, self, other)
             }
 
-            /// The same for words of any widths.
+            /// Returns high if this word is less than `other`; the widths may differ.
             #[track_caller]
             pub fn below_any(self, other: $word) -> Bit {
                 let width = self.width().max(other.width());
                 self.resize(width).below(other.resize(width))
             }
 
-            /// High where two words of any widths are the same number.
+            /// Returns high if both words are the same number; the widths may differ.
             #[track_caller]
             pub fn equals_any(self, other: $word) -> Bit {
                 let width = self.width().max(other.width());
                 self.resize(width).equals(other.resize(width))
             }
 
-            /// High where every bit is low.
+            /// Returns high if all bits are low.
             #[track_caller]
             pub fn is_zero(self) -> Bit {
                 self.equals(0)
             }
 
-            /// The product, cut to `width` bits; the sum of both widths loses nothing.
+            /// Returns the product cut to `width` bits; the sum of both widths is exact.
             #[track_caller]
             pub fn times(self, other: $word, width: usize) -> Self {
                 $word(product(self.0, other.0, $shape(width)))
             }
 
-            /// The sum of two words of any widths, one bit wider than the wider one: exact.
+            /// Returns the exact sum, one bit wider than the wider word; the widths may differ.
             #[track_caller]
             pub fn plus(self, other: $word) -> Self {
                 let width = self.width().max(other.width()) + 1;
                 self.resize(width) + other.resize(width)
             }
 
-            /// Moved up by a fixed number of bits, zeros from below.
+            /// Shifts left by a fixed number of bits, filled with zeros.
             #[track_caller]
             pub fn shift_left(self, by: usize) -> Self {
                 let shape = build::shape(self.0);
@@ -420,20 +420,20 @@ arithmetic!(U, unsigned);
 arithmetic!(I, signed);
 
 impl U {
-    /// A constant, 0 to 2^`width` − 1.
+    /// Returns a constant, 0 to 2^`width` − 1.
     #[track_caller]
     pub fn new(value: u64, width: usize) -> Self {
         U(build::number(value.into(), unsigned(width)))
     }
 
-    /// A value that is fixed at elaboration and may differ between circuits of one kind: a
-    /// parameter of their HDL module, called `name` there.
+    /// Returns a value that is fixed at elaboration and may differ between circuits of one kind: a
+    /// parameter of their Verilog module, named `name`.
     #[track_caller]
     pub fn parameter(name: &'static str, value: u64, width: usize) -> Self {
         U(build::parameter(name, value, unsigned(width)))
     }
 
-    /// Bit `index`, 0 the least significant.
+    /// Returns bit `index`; 0 is the least significant.
     #[track_caller]
     pub fn bit(self, index: usize) -> Bit {
         if index >= self.width() {
@@ -443,13 +443,13 @@ impl U {
         Bit(node(Node::Slice(self.0, index), BIT))
     }
 
-    /// Zero-extended or cut to `width` bits.
+    /// Zero-extends or cuts to `width` bits.
     #[track_caller]
     pub fn resize(self, width: usize) -> Self {
         U(resize(self.0, build::word(unsigned(width), "a word")))
     }
 
-    /// `width` bits from bit `low` up.
+    /// Returns `width` bits from bit `low` up.
     #[track_caller]
     pub fn slice(self, low: usize, width: usize) -> Self {
         let shape = build::word(unsigned(width), "a slice");
@@ -461,7 +461,7 @@ impl U {
         U(node(Node::Slice(self.0, low), shape))
     }
 
-    /// Moved down by a fixed number of bits, zeros from above.
+    /// Shifts right by a fixed number of bits, filled with zeros.
     #[track_caller]
     pub fn shift_right(self, by: usize) -> Self {
         let shape = build::shape(self.0);
@@ -471,7 +471,7 @@ impl U {
         }
     }
 
-    /// This word above `low`: as wide as both together.
+    /// Concatenates this word above `low`.
     #[track_caller]
     pub fn join(self, low: U) -> Self {
         let width = self.width() + low.width();
@@ -480,7 +480,7 @@ impl U {
         U(node(Node::Join(high.0, low.0), shape))
     }
 
-    /// The same bits read as two's complement.
+    /// Returns the same bits read as two's complement.
     #[track_caller]
     pub fn signed(self) -> I {
         I(node(Node::Cast(self.0), signed(self.width())))
@@ -488,32 +488,32 @@ impl U {
 }
 
 impl I {
-    /// A constant, −2^(`width` − 1) to 2^(`width` − 1) − 1.
+    /// Returns a constant, −2^(`width` − 1) to 2^(`width` − 1) − 1.
     #[track_caller]
     pub fn new(value: i64, width: usize) -> Self {
         I(build::number(value.into(), signed(width)))
     }
 
-    /// The sign bit.
+    /// Returns the sign bit.
     #[track_caller]
     pub fn is_negative(self) -> Bit {
         Bit(node(Node::Slice(self.0, self.width() - 1), BIT))
     }
 
-    /// Sign-extended or cut to `width` bits.
+    /// Sign-extends or cuts to `width` bits.
     #[track_caller]
     pub fn resize(self, width: usize) -> Self {
         I(resize(self.0, build::word(signed(width), "a word")))
     }
 
-    /// The difference of two words of any widths, one bit wider than the wider one: exact.
+    /// Returns the exact difference, one bit wider than the wider word; the widths may differ.
     #[track_caller]
     pub fn minus(self, other: I) -> Self {
         let width = self.width().max(other.width()) + 1;
         self.resize(width) - other.resize(width)
     }
 
-    /// Moved down by a fixed number of bits, the sign from above: a division by 2^`by` rounded
+    /// Shifts right by a fixed number of bits, filled with the sign: a division by 2^`by` rounded
     /// towards minus infinity.
     #[track_caller]
     pub fn shift_right(self, by: usize) -> Self {
@@ -524,28 +524,28 @@ impl I {
         ))
     }
 
-    /// Its two's complement where `negative` is high, itself where that is low.
+    /// Returns the negated word if `negative` is high, else the word itself.
     #[track_caller]
     pub fn negated_by(self, negative: Bit) -> Self {
         negative.mux(-self, self)
     }
 
-    /// The absolute value as an unsigned word; exact for the most negative word too.
+    /// Returns the absolute value as an unsigned word; exact for the most negative word too.
     #[track_caller]
     pub fn magnitude(self) -> U {
         self.is_negative().mux((-self).unsigned(), self.unsigned())
     }
 
-    /// The same bits read as unsigned.
+    /// Returns the same bits read as unsigned.
     #[track_caller]
     pub fn unsigned(self) -> U {
         U(node(Node::Cast(self.0), unsigned(self.width())))
     }
 }
 
-/// Numbers that are cut to a width on purpose: `(x + 1).cut(8)` fits a word of 8 bits whatever `x`.
+/// Cuts a number to a width on purpose: `(x + 1).cut(8)` fits a word of 8 bits for any `x`.
 pub trait Cut {
-    /// Number that the low `width` bits mean.
+    /// Returns the number that the low `width` bits mean.
     fn cut(self, width: usize) -> Self;
 }
 
@@ -569,7 +569,7 @@ impl Cut for i64 {
     }
 }
 
-/// How many bits number `things` things, at least 1.
+/// Returns the number of bits that number `things` things, at least 1.
 pub const fn log2(things: usize) -> usize {
     match things {
         0..=2 => 1,

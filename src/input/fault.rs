@@ -1,53 +1,53 @@
-//! What is said of input that cannot be used.
+//! Faults: errors in input files.
 
 use std::borrow::Cow;
 use std::fmt;
 use std::iter;
 use std::ops::Range;
 
-/// Characters at most of what a message has from a file.
+/// Greatest number of characters that a message quotes from a file.
 pub const SHOWN: usize = 1000;
 
-/// Characters at most of what a message lists as allowed.
+/// Greatest number of characters in a message's list of allowed values.
 pub const LISTED: usize = 10_000;
 
-/// Faults at most that are found in a file before its reader gives up.
+/// Greatest number of faults found in a file before its reader gives up.
 pub const MOST_FAULTS: usize = 20;
 
-/// Bytes at most of a line before what is at fault in it, and from there on.
+/// Greatest number of bytes shown of a line before the fault; the same number follows.
 const SHOWN_BEFORE: usize = 60;
 const SHOWN_FROM: usize = 100;
 
-/// Input that cannot be used.
+/// Error in an input file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
-    /// The file's name as the user gave it.
+    /// Name of the file as given by the user.
     pub file: String,
-    /// Line from 1; 0 where the file as a whole is meant.
+    /// Line from 1; 0 for the file as a whole.
     pub line: usize,
-    /// The instruction, word or key at fault.
+    /// Instruction, word or key at fault.
     pub field: String,
-    /// What is wrong.
+    /// Description of the error.
     pub problem: String,
-    /// What would be right.
+    /// Allowed values.
     pub allowed: String,
-    /// The line, where it is known what in it is at fault.
+    /// Line of the fault, if its position in the line is known.
     pub excerpt: Option<Box<Excerpt>>,
-    /// The fault of the same file that was found after this one.
+    /// Next fault found in the same file.
     pub next: Option<Box<Fault>>,
 }
 
-/// A line of a file, or the part of it around what is at fault.
+/// Line of a file, or the part of it around a fault.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Excerpt {
-    /// The text, without control characters, which a terminal would obey.
+    /// Text, without control characters, which a terminal would obey.
     pub text: String,
-    /// The bytes of the text that are at fault.
+    /// Bytes of the text that are at fault.
     pub marked: Range<usize>,
 }
 
 impl Excerpt {
-    /// Of a text the line that a range of bytes begins in. Lines end in LF or CR.
+    /// Returns the line in which a range of bytes begins. Lines end in LF or CR.
     fn of(text: &[u8], marked: &Range<usize>) -> Self {
         let ends = |byte: &u8| matches!(byte, b'\n' | b'\r');
         let at = marked.start.min(text.len());
@@ -80,7 +80,7 @@ impl Excerpt {
     }
 }
 
-/// Adds bytes as text, with a blank for each control character.
+/// Appends bytes as text, with a blank for each control character.
 fn push_plain(to: &mut String, bytes: &[u8]) {
     let plain = |c: char| if c.is_control() { ' ' } else { c };
     to.extend(String::from_utf8_lossy(bytes).chars().map(plain));
@@ -88,8 +88,8 @@ fn push_plain(to: &mut String, bytes: &[u8]) {
 
 impl std::error::Error for Fault {}
 
-/// A part of a message that comes from a file or an argument: of so many characters at most, and
-/// without control characters, which a terminal would obey.
+/// Shortens text from a file or an argument to `most` characters, without control characters,
+/// which a terminal would obey.
 #[must_use]
 pub fn shown(text: &str, most: usize) -> Cow<'_, str> {
     let cut = text.char_indices().nth(most).map(|(end, _)| end);
@@ -109,7 +109,7 @@ pub fn shown(text: &str, most: usize) -> Cow<'_, str> {
     Cow::Owned(plain)
 }
 
-/// A word of the input as a message shows it: its beginning, and control characters by their names.
+/// Shortens a word of the input for a message; control characters are shown by name.
 pub(super) fn brief(text: &str) -> String {
     let mut chars = text.trim().chars();
     let mut short: String = chars
@@ -123,7 +123,7 @@ pub(super) fn brief(text: &str) -> String {
     short
 }
 
-/// The fault by itself, on one line.
+/// Formats this fault alone, on one line.
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [file, field, problem] =
@@ -138,7 +138,7 @@ impl fmt::Display for Fault {
 }
 
 impl Fault {
-    /// A fault without an excerpt.
+    /// Creates a fault without an excerpt.
     pub fn new(
         file: &str,
         line: usize,
@@ -157,7 +157,7 @@ impl Fault {
         }
     }
 
-    /// The same with the line that a range of bytes of the text begins in.
+    /// Adds the line in which a range of bytes of the text begins.
     #[must_use]
     pub(crate) fn marked(self, text: &[u8], marked: &Range<usize>) -> Self {
         Self {
@@ -166,21 +166,21 @@ impl Fault {
         }
     }
 
-    /// This one and those that were found after it.
+    /// Returns this fault and those found after it.
     pub fn all(&self) -> impl Iterator<Item = &Fault> {
         iter::successors(Some(self), |fault| fault.next.as_deref())
     }
 }
 
-/// What a reader finds wrong as it goes on.
+/// Faults found by a reader so far.
 #[derive(Debug, Default)]
 pub(crate) struct Faults {
     found: Vec<Fault>,
 }
 
 impl Faults {
-    /// Takes a fault, unless it was found in the same line before; false when there are as many as
-    /// are told of.
+    /// Adds a fault, unless it was found in the same line before. Returns false if there are too
+    /// many.
     pub(crate) fn add(&mut self, fault: Fault) -> bool {
         let same = |other: &Fault| {
             (other.line, &other.field, &other.problem) == (fault.line, &fault.field, &fault.problem)
@@ -195,11 +195,11 @@ impl Faults {
         self.found.is_empty()
     }
 
-    /// The value, where nothing was found.
+    /// Returns the value if no fault was found.
     ///
     /// # Errors
     ///
-    /// The first fault, which leads to the others.
+    /// Returns the first fault, which links to the others.
     pub(crate) fn or<T>(self, value: impl FnOnce() -> Result<T, Fault>) -> Result<T, Fault> {
         let mut next = None;
         for fault in self.found.into_iter().rev() {
@@ -244,7 +244,7 @@ mod tests {
         let of = |text: &str, word: &str| (text.to_owned(), word.to_owned());
         assert_eq!(excerpt(b"a\nb cd e\nf", 4..6), of("b cd e", "cd"));
         assert_eq!(excerpt(b"a\rb\tcd\r\nf", 4..6), of("b cd", "cd"));
-        // Over the end of its line, and past all of the text.
+        // Past the end of its line, and past the end of the text.
         assert_eq!(excerpt(b"ab\ncd", 1..9), of("ab", "b"));
         assert_eq!(excerpt(b"ab", 2..4), of("ab", ""));
         assert_eq!(excerpt(b"", 0..0), of("", ""));

@@ -1,4 +1,4 @@
-//! Reading files: any, and drawings.
+//! Reading of files in general, and of drawings.
 
 use std::fmt;
 use std::fs::{File, Metadata};
@@ -9,18 +9,18 @@ use crate::files;
 
 use super::{Drawing, Fault, Point, gcode, hpgl};
 
-/// The largest file read, in bytes. Beyond it a wrong file is likelier than a drawing, and the
-/// moves take several times the memory of their text.
+/// Greatest size of an input file in bytes. A larger file is more likely a mistake than a drawing,
+/// and the moves take several times the memory of their text.
 pub const LARGEST_FILE: u64 = 256 << 20;
 
-/// What a drawing or part program may be, for faults.
+/// Allowed formats of a drawing or part program, for messages.
 pub const DRAWINGS: &str = "HPGL as .hpgl, .hpg, .plt or .hgl; G-code as .ngc, .gcode, .nc, .tap, \
                             .gc or .cnc";
 
-/// What a position log may be, for faults.
+/// Allowed format of a position log, for messages.
 pub const POSITION_LOGS: &str = "a position log as .csv";
 
-/// What a file is, by its extension in either case.
+/// Kind of an input file, by its extension in either case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// A scenario in TOML.
@@ -32,11 +32,11 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// The kind of a file.
+    /// Returns the kind of a file.
     ///
     /// # Errors
     ///
-    /// A path without a known extension.
+    /// Returns an error for a path without a known extension.
     pub fn of(path: &Path) -> Result<Self, Fault> {
         let extension = path.extension().and_then(|text| text.to_str());
         match extension.map(str::to_ascii_lowercase).as_deref() {
@@ -63,44 +63,45 @@ impl fmt::Display for Kind {
     }
 }
 
-/// What reads a text, by the name of its file.
+/// Function that reads a text; its first argument is the name of the file.
 type Reader = fn(&str, &[u8], &Options) -> Result<Drawing, Fault>;
 
-/// Where zeros and reference points are, from the machine's zero, in millimetres.
+/// Zeros and reference points, from the machine's zero, in millimetres.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Zeros {
-    /// The zeros of G54 to G59 and G59.1 to G59.3.
+    /// Zeros of G54 to G59 and G59.1 to G59.3.
     pub systems: [Point; 9],
-    /// The reference points of G28 and G30.
+    /// Reference points of G28 and G30.
     pub references: [Point; 2],
 }
 
-/// How the readers of moves read: how strictly, and from where.
+/// Options of the readers of moves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// HPGL: skips with a warning what else is refused since it is not understood or incomplete and
-    /// may move the pen.
+    /// HPGL: true to skip, with a warning, instructions that are unknown or incomplete and may
+    /// move the pen; otherwise they are refused.
     pub lenient: bool,
-    /// G-code: refuses what says nothing about the path, where else it is skipped with a warning.
+    /// G-code: true to refuse words without effect on the path; otherwise they are skipped with a
+    /// warning.
     pub strict: bool,
-    /// G-code: the most lines that are run, loops and calls counted each time.
+    /// G-code: greatest number of executed lines; lines in loops and calls count each time.
     pub most_lines: u64,
-    /// G-code: where its zeros are, until it says otherwise.
+    /// G-code: zeros in force until the program sets its own.
     pub zeros: Zeros,
-    /// G-code: G5 and G5.1 are moves on splines; else, and as NURBS always, chords.
+    /// G-code: true to make G5 and G5.1 moves on splines; otherwise, and for NURBS always, they
+    /// become chords.
     pub splines: bool,
-    /// G-code: directories with the files of subroutines that a program calls, in the order in which
-    /// they are looked through.
+    /// G-code: directories with files of subroutines that a program calls, in search order.
     pub subroutines: Vec<PathBuf>,
-    /// G-code: W is an axis, which goes linearly with the length of each move.
+    /// G-code: true if W is an axis, which moves linearly with the length of each move.
     pub fourth: bool,
 }
 
 impl Options {
-    /// The most lines that are run, unless something else is said.
+    /// Default limit of executed lines.
     pub const MOST_LINES: u64 = 10_000_000;
 
-    /// Skips with a warning whatever can be skipped.
+    /// Returns options that skip whatever can be skipped, with a warning.
     #[must_use]
     pub fn lenient() -> Self {
         Options {
@@ -124,21 +125,22 @@ impl Default for Options {
     }
 }
 
-/// Reads an HPGL drawing or a G-code program, told apart by the extension in either case.
+/// Reads an HPGL drawing or a G-code program, depending on the extension in either case.
 ///
 /// # Errors
 ///
-/// A path without a known extension, that is neither a regular file nor a pipe, cannot be read or is
-/// larger than [`LARGEST_FILE`]; and whatever [`hpgl::read`] and [`gcode::read`] object to.
+/// Returns an error for a path without a known extension, that is neither a regular file nor a
+/// pipe, cannot be read or is larger than [`LARGEST_FILE`]; and the errors of [`hpgl::read`] and
+/// [`gcode::read`].
 pub fn read_path(path: &Path) -> Result<Drawing, Fault> {
     read_path_with(path, &Options::default())
 }
 
-/// Reads a drawing or a program as [`read_path`] does, as strictly as the options say.
+/// Reads a drawing or a program as [`read_path`] does, with options.
 ///
 /// # Errors
 ///
-/// As [`read_path`].
+/// Returns the errors of [`read_path`].
 pub fn read_path_with(path: &Path, options: &Options) -> Result<Drawing, Fault> {
     let name = path.display().to_string();
     let read = reader(&name, path)?;
@@ -149,16 +151,17 @@ pub fn read_path_with(path: &Path, options: &Options) -> Result<Drawing, Fault> 
 ///
 /// # Errors
 ///
-/// A name without a known extension; and whatever [`hpgl::read`] and [`gcode::read`] object to.
+/// Returns an error for a name without a known extension, and the errors of [`hpgl::read`] and
+/// [`gcode::read`].
 pub fn read_text(name: &str, text: &[u8]) -> Result<Drawing, Fault> {
     read_text_with(name, text, &Options::default())
 }
 
-/// Reads the contents of a file as [`read_text`] does, as strictly as the options say.
+/// Reads the contents of a file as [`read_text`] does, with options.
 ///
 /// # Errors
 ///
-/// As [`read_text`].
+/// Returns the errors of [`read_text`].
 pub fn read_text_with(name: &str, text: &[u8], options: &Options) -> Result<Drawing, Fault> {
     reader(name, Path::new(name))?(name, text, options)
 }
@@ -174,11 +177,12 @@ fn reader(name: &str, path: &Path) -> Result<Reader, Fault> {
     Err(Fault::new(name, 0, "file", problem, DRAWINGS))
 }
 
-/// The bytes of a file or of a pipe, which are read once.
+/// Reads a file or a pipe once.
 ///
 /// # Errors
 ///
-/// A path that is neither a regular file nor a pipe, cannot be read or is larger than `most` bytes.
+/// Returns an error for a path that is neither a regular file nor a pipe, cannot be read or is
+/// larger than `most` bytes.
 pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Fault> {
     let room = size(path, most)?;
     let unreadable = |error| unreadable(path, &error);
@@ -186,7 +190,7 @@ pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Fault> {
     let reserved = bytes.try_reserve_exact(room);
     reserved.map_err(|error| unreadable(error.into()))?;
     let file = File::open(path).map_err(unreadable)?;
-    // The limit holds for a file that grows meanwhile, too.
+    // The limit holds also for a file that grows meanwhile.
     let mut reader = file.take(most.saturating_add(1));
     let length = reader.read_to_end(&mut bytes).map_err(unreadable)?;
     if length as u64 > most {
@@ -195,13 +199,13 @@ pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Fault> {
     Ok(bytes)
 }
 
-/// The bytes of a file before it is read; of a pipe none.
+/// Returns the size of a file before it is read; 0 for a pipe.
 ///
 /// # Errors
 ///
-/// As [`read_bytes`], without reading.
+/// Returns the errors of [`read_bytes`], without reading.
 pub(crate) fn size(path: &Path, most: u64) -> Result<usize, Fault> {
-    // Asked before opening, which may do something to a device.
+    // Checked before opening, which may affect a device.
     let metadata = path.metadata().map_err(|error| unreadable(path, &error))?;
     if !(metadata.is_file() || is_pipe(&metadata)) {
         return Err(fault(
@@ -242,10 +246,11 @@ fn unreadable(path: &Path, error: &io::Error) -> Fault {
     }
 }
 
-/// Remedy where a process has as many open files as it may.
+/// Advice if the process has too many open files.
 pub const MORE_FILES: &str = "a higher limit on open files (ulimit -n)";
 
-/// The remedy for an error of a file: `allowed`, unless it is that there are too many open files.
+/// Returns the advice for a file error: [`MORE_FILES`] if there are too many open files, else
+/// `allowed`.
 pub fn or_more_files<'a>(error: &io::Error, allowed: &'a str) -> &'a str {
     match files::too_many_open(error) {
         true => MORE_FILES,
@@ -263,11 +268,12 @@ fn is_pipe(_: &Metadata) -> bool {
     false
 }
 
-/// The text of a file of at most [`LARGEST_FILE`]; `allowed` says what it is to be.
+/// Reads the text of a file of at most [`LARGEST_FILE`] bytes; `allowed` describes what is
+/// expected.
 ///
 /// # Errors
 ///
-/// As [`read_bytes`], and bytes that are not UTF-8, with their line.
+/// Returns the errors of [`read_bytes`], and an error with the line for bytes that are not UTF-8.
 pub fn read_string(path: &Path, allowed: &str) -> Result<String, Fault> {
     read_string_of(path, LARGEST_FILE, allowed)
 }
@@ -276,7 +282,7 @@ pub fn read_string(path: &Path, allowed: &str) -> Result<String, Fault> {
 ///
 /// # Errors
 ///
-/// As [`read_bytes`], and bytes that are not UTF-8, with their line.
+/// Returns the errors of [`read_bytes`], and an error with the line for bytes that are not UTF-8.
 pub fn read_string_of(path: &Path, most: u64, allowed: &str) -> Result<String, Fault> {
     String::from_utf8(read_bytes(path, most)?).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
@@ -294,7 +300,7 @@ mod tests {
     fn a_file_over_the_limit_is_refused() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("huge.plt");
-        // Sparse: takes no room on disk.
+        // Sparse: takes no space on disk.
         File::create(&path)
             .unwrap()
             .set_len(LARGEST_FILE + 1)

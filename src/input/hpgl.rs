@@ -1,4 +1,4 @@
-//! HPGL and HPGL/2 pen-plotter drawings.
+//! Reader of HPGL and HPGL/2 pen-plotter drawings.
 //!
 //! | drawn | |
 //! |---|---|
@@ -10,15 +10,16 @@
 //! | LB, BL, PB, CP, DT, SI, SR, DI, DR, SL, LO, DV, ES, SM, UC | labels and symbols, in Hershey's single-stroke Roman letters, all of one width as a plotter's are |
 //! | XT, YT, TL | ticks |
 //!
-//! IN, BP, DF, IP, IR, SC (of every type), IW, RO, PS and SP act. What moves no pen, such as VS or
-//! LT, is skipped with one warning for each kind, and so are escape sequences. What is not known
-//! may move the pen: it is refused, unless [`Options::lenient`] has it skipped.
+//! IN, BP, DF, IP, IR, SC (of every type), IW, RO, PS and SP are supported. Instructions that move
+//! no pen, such as VS or LT, are skipped with one warning per kind, and so are escape sequences.
+//! Unknown instructions may move the pen: they are refused, unless [`Options::lenient`] skips
+//! them.
 //!
 //! A plotter unit is 0.025 mm. The pen starts up, at the origin of the plotter units, and nothing
 //! is added after the last move. IN raises the pen where it is. P1 and P2, and the paper that RO
-//! turns and IR divides, start as an HP 7475A with paper of size A has them: (250, 279) and (10250,
-//! 7479), and 10365 by 7962. RO shifts the origin to the corner that is then at the lower left. The
-//! paper's edges clip nothing; a window (IW) does.
+//! turns and IR divides, start as on an HP 7475A with paper of size A: (250, 279) and (10250,
+//! 7479), and 10365 by 7962. RO shifts the origin to the corner that is then at the lower left.
+//! The paper's edges do not clip; a window (IW) does.
 //!
 //! A coordinate pair that does not move the pen gives no [`Move`](super::Move);
 //! [`Drawing::zero_length`] counts it, with the pen up or down.
@@ -48,30 +49,32 @@ use polygon::Polygon;
 use scale::{Corners, DEFAULT_CORNERS, Scale, Window};
 use text::Text;
 
-/// Reads an HPGL drawing; `file` is the name that warnings and faults carry.
+/// Reads an HPGL drawing; warnings and faults name the file `file`.
 ///
-/// The text may hold any bytes. Control characters between instructions, such as NUL, are skipped,
-/// and so is a byte order mark.
+/// The text may contain any bytes. Control characters between instructions, such as NUL, are
+/// skipped, and so is a byte order mark.
 ///
 /// # Errors
 ///
-/// After a fault the reader goes on behind the instruction.
+/// After a fault the reader continues after the instruction.
 ///
-/// Text that is not HPGL, an instruction that is not known and may move the pen, a number that is
-/// none or is out of range, an odd count of coordinates, a wrong count of other parameters, a scale
-/// that maps a length to zero or from zero, a label or string without its end, a coordinate beyond
-/// [`super::REACH_MM`], curves, labels and fills of more than four million moves, no move at all.
+/// Returns an error for text that is not HPGL, an unknown instruction that may move the pen, an
+/// invalid number or one out of range, an odd number of coordinates, a wrong number of other
+/// parameters, a scale that maps a length to zero or from zero, a label or string without its end,
+/// a coordinate beyond [`super::REACH_MM`], curves, labels and fills of more than four million
+/// moves, no move at all.
 pub fn read(file: &str, text: &[u8]) -> Result<Drawing, Fault> {
     read_with(file, text, &Options::default())
 }
 
-/// Reads an HPGL drawing as [`read`] does, as strictly as the options say: if lenient, instructions
-/// that are not known or lack parameters, text that is none, parameters beyond those of an
-/// instruction and the last of an odd count of coordinates are skipped with a warning.
+/// Reads an HPGL drawing as [`read`] does, with options. A lenient reader skips, with a warning,
+/// instructions that are unknown or lack parameters, text that is not HPGL, excess parameters, and
+/// the last of an odd number of coordinates.
 ///
 /// # Errors
 ///
-/// As [`read`], and with [`Options::zeros`] that are not zero or [`Options::subroutines`].
+/// Returns the errors of [`read`], and an error for [`Options::zeros`] that are not zero or
+/// [`Options::subroutines`].
 pub fn read_with(file: &str, text: &[u8], options: &Options) -> Result<Drawing, Fault> {
     if options.zeros != Zeros::default() {
         let problem = "a drawing in HPGL has no zeros and reference points of its own";
@@ -120,7 +123,7 @@ fn draw_all(mut plotter: Plotter<'_>) -> Result<Drawing, Fault> {
     faults.or(|| track.finish("an HPGL drawing with at least one move"))
 }
 
-/// The bytes of a text that an editor has made UTF-8 of, each of them a character then.
+/// Restores the bytes of a text that an editor has converted to UTF-8, one character per byte.
 fn bytes_of_utf8(text: &[u8]) -> Option<Vec<u8>> {
     let text = str::from_utf8(text).ok()?;
     let byte = |character| u8::try_from(u32::from(character)).ok();
@@ -130,7 +133,7 @@ fn bytes_of_utf8(text: &[u8]) -> Option<Vec<u8>> {
         .collect()
 }
 
-/// The state an instruction may change.
+/// State that instructions change.
 struct Plotter<'a> {
     lexer: Lexer<'a>,
     lenient: bool,
@@ -141,27 +144,27 @@ struct Plotter<'a> {
     corners: Corners,
     window: Option<Window>,
     scale: Scale,
-    /// Where the pen is, in user units: integers stay exact, however long a chain of PR.
+    /// Pen position in user units: integers stay exact, however long a chain of PR.
     at: [f64; 2],
     tolerance: Tolerance,
     polygon: Polygon,
-    /// In polygon mode: where the pen was when it began, and whether it was down.
+    /// In polygon mode: pen position when it began, and true if it was down.
     recording: Option<([f64; 2], bool)>,
     fill: Fill,
-    /// Where the lines of a hatching pass, in plotter units.
+    /// Anchor through which the lines of a hatching pass, in plotter units.
     anchor: [f64; 2],
     pen_width: PenWidth,
     text: Text<'a>,
-    /// Ticks' lengths on either side, as parts of the distance of P1 and P2.
+    /// Lengths of ticks on either side, as parts of the distance of P1 and P2.
     ticks: [f64; 2],
 }
 
-/// How wide the pen is, which the lines of a solid filling depend on.
+/// Width of the pen, on which the lines of a solid fill depend.
 #[derive(Debug, Clone, Copy)]
 struct PenWidth {
-    /// PW's number is a percentage of the distance of P1 and P2.
+    /// True if PW's number is a percentage of the distance of P1 and P2.
     relative: bool,
-    /// In plotter units.
+    /// Width in plotter units.
     units: f64,
 }
 
@@ -174,7 +177,7 @@ impl Default for PenWidth {
     }
 }
 
-/// The length of a tick on either side, as a part of the distance of P1 and P2.
+/// Default length of a tick on either side, as a part of the distance of P1 and P2.
 const DEFAULT_TICKS: [f64; 2] = [0.005; 2];
 
 impl<'a> Plotter<'a> {
@@ -288,7 +291,7 @@ impl<'a> Plotter<'a> {
 
     fn initialise(&mut self, mnemonic: Mnemonic) -> Result<(), Fault> {
         match &mnemonic.0 {
-            // Begins a plot, with kinds and values of no concern here, texts among them.
+            // Begins a plot; its kinds and values, texts among them, have no effect here.
             b"BP" => self.lexer.skip_parameters()?,
             _ => drop(self.parameters(&[0, 1])?),
         }
@@ -316,7 +319,7 @@ impl<'a> Plotter<'a> {
         self.mark();
     }
 
-    /// Without its polygon; the pen is where it was before.
+    /// Leaves polygon mode without a polygon; the pen returns to its earlier position.
     fn leave_polygon_mode(&mut self) {
         if let Some((at, _)) = self.recording.take() {
             self.at = at;
@@ -324,7 +327,7 @@ impl<'a> Plotter<'a> {
         self.polygon = Polygon::default();
     }
 
-    /// Takes up changed corners or a changed window. The pen stays where it is on the paper.
+    /// Applies changed corners or a changed window. The pen keeps its position on the paper.
     fn rescale(&mut self) {
         let scale = Scale::new(self.corners, self.window);
         if scale != self.scale {
@@ -336,17 +339,18 @@ impl<'a> Plotter<'a> {
         }
     }
 
-    /// Where the pen is, in plotter units.
+    /// Returns the pen position in plotter units.
     fn here(&self) -> [f64; 2] {
         self.scale.to_plotter(self.at)
     }
 
-    /// Carriage returns of labels lead back to where the pen is now.
+    /// Sets the current position as the target of carriage returns in labels.
     fn mark(&mut self) {
         self.text.carriage = self.here();
     }
 
-    /// Moves the pen to a point in user units, as it is: up or down, or into the polygon buffer.
+    /// Moves the pen to a point in user units, up or down as it is, or records it in the polygon
+    /// buffer.
     fn go(&mut self, by: By<'_>, to: [f64; 2]) -> Result<(), Fault> {
         self.at = to;
         let to = self.here();
@@ -357,13 +361,13 @@ impl<'a> Plotter<'a> {
         self.paper.go(by, to, self.down)
     }
 
-    /// Pens are not told apart; a change from one to another is worth a warning.
+    /// Selects a pen. Pens are not distinguished; a change to another pen gives a warning.
     fn select_pen(&mut self, line: usize, pen: f64) -> Result<(), Fault> {
         if pen < 0.0 || pen.fract() != 0.0 {
             let problem = format!("{pen} is not a pen");
             return Err(self.lexer.fault(problem, "a whole number from 0"));
         }
-        // Pen 0 is no pen: the one in use goes back to its stall.
+        // Pen 0 puts the current pen away.
         if pen > 0.0 && *self.pen.get_or_insert(pen) != pen {
             let text = || "SP: more than one pen; all pens draw alike".to_owned();
             self.note("SP", line, text);
@@ -376,7 +380,8 @@ impl<'a> Plotter<'a> {
     }
 }
 
-/// Whether polygon mode takes an instruction: what adds corners, and what moves no pen.
+/// True if polygon mode accepts an instruction: those that add corners, and those that move no
+/// pen.
 fn may_be_in_a_polygon(mnemonic: &Mnemonic) -> bool {
     !matches!(
         &mnemonic.0,

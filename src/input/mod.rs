@@ -1,8 +1,8 @@
-//! What comes in: drawings (HPGL), part programs (G-code) and position logs (CSV).
+//! Readers of input files: drawings (HPGL), part programs (G-code) and position logs (CSV).
 //!
-//! A reader of moves turns its text into a [`Drawing`], every reader what it cannot use into a
-//! [`Fault`] that names the file, the line, the field, what was wrong and what is allowed, and that
-//! leads to the others found in the same file. What a reader of moves skips it says in
+//! A reader of moves converts its text into a [`Drawing`]. Every reader reports errors as a
+//! [`Fault`], which names the file, the line, the field, the problem and the allowed values, and
+//! links to the other faults of the same file. Anything that a reader of moves skips is listed in
 //! [`Drawing::warnings`]: nothing is dropped silently.
 
 mod fault;
@@ -25,79 +25,79 @@ pub use moves::{Iter, Moves};
 
 use std::fmt;
 
-/// The number of coordinates of a [`Point`].
+/// Number of coordinates of a [`Point`].
 pub const COORDINATES: usize = 3;
 
-/// A point in millimetres: X, Y, Z.
+/// Point in millimetres: X, Y, Z.
 pub type Point = [f64; COORDINATES];
 
-/// The farthest coordinate a reader lets through, in millimetres, on either side of zero.
+/// Greatest absolute value of a coordinate in millimetres.
 pub const REACH_MM: f64 = 1.0e6;
 
-/// A straight move that changes no coordinate by this much, in millimetres, counts as zero
-/// length. It is far below any step of a machine and far above the rounding of an `f64`.
+/// Length in millimetres below which a straight move counts as zero length, in every coordinate.
+/// Far below any step of a machine and far above the rounding of an `f64`.
 pub const ZERO_MM: f64 = 1.0e-6;
 
-/// How a move gets to its end.
+/// Path of a move to its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Course {
-    /// Straight.
+    /// Straight line.
     Line,
-    /// On a circle in the X-Y plane; Z, where it changes, changes in proportion to the angle.
+    /// Circle in the X-Y plane; Z changes in proportion to the angle.
     Arc {
         /// Centre in millimetres (X, Y).
         centre: [f64; 2],
-        /// Seen from +Z. A start equal to the end in X and Y is a full circle.
+        /// True if clockwise, seen from +Z. Equal start and end in X and Y give a full circle.
         clockwise: bool,
     },
-    /// On a cubic curve with these two control points between start and end, in Bézier's form. Only
-    /// where [`Options::splines`] asks for it.
+    /// Cubic Bézier curve with two control points between start and end. Only with
+    /// [`Options::splines`].
     Spline {
-        /// In millimetres.
+        /// Control points in millimetres.
         controls: [Point; 2],
     },
 }
 
-/// One move, from the end of the move before it.
+/// Move from the end of the move before it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Move {
-    /// Where it ends, in millimetres.
+    /// End point in millimetres.
     pub to: Point,
-    /// Straight or on an arc.
+    /// Path to the end.
     pub course: Course,
-    /// Pen up (HPGL) or G0: travels at the rapid rate, draws nothing.
+    /// True for pen up (HPGL) or G0: moves at the rapid rate and draws nothing.
     pub rapid: bool,
-    /// Feed in mm/min where the input sets one.
+    /// Feed in mm/min, if the input sets one.
     pub feed_mm_per_min: Option<f64>,
-    /// Line of the input it stands in, from 1.
+    /// Line of the input, from 1.
     pub line: usize,
 }
 
-/// A drawing or a part program: a start and the moves from there.
+/// Drawing or part program: a start and the moves from there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {
-    /// The file's name as the user gave it.
+    /// Name of the file as given by the user.
     pub file: String,
-    /// Where the first move starts: the origin, unless a reader says otherwise.
+    /// Start of the first move: the origin, unless a reader sets it.
     pub start: Point,
-    /// The moves, in order. Never empty, and none of zero length.
+    /// Moves in order; never empty, and none of zero length.
     pub moves: Moves,
-    /// W at the end of each move, in millimetres; it begins at 0. Empty without [`Options::fourth`].
+    /// W at the end of each move, in millimetres; starts at 0. Empty without [`Options::fourth`].
     pub fourth: Vec<f64>,
-    /// How many moves of the input had zero length. They take no time and are not in `moves`.
+    /// Number of input moves of zero length. They take no time and are not in `moves`.
     pub zero_length: usize,
-    /// What was skipped or assumed, in order.
+    /// Parts of the input that were skipped or assumed, in order.
     pub warnings: Vec<Warning>,
 }
 
-/// Something a reader skipped or assumed.
+/// Warning about a part of the input that was skipped or assumed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Warning {
-    /// The file's name as the user gave it.
+    /// Name of the file as given by the user.
     pub file: String,
     /// Line from 1.
     pub line: usize,
-    /// What was skipped or assumed.
+    /// Text of the warning.
     pub text: String,
 }
 

@@ -1,9 +1,9 @@
-//! Moves of a drawing, packed.
+//! Packed list of a drawing's moves.
 
 use super::{Course, Move, Point};
 use std::ops::Range;
 
-/// Moves in order, in 32 bytes each where feeds and courses seldom change.
+/// List of moves, 32 bytes each if feeds and courses seldom change.
 ///
 /// ```
 /// use motion_rtl::input::{Course, Move, Moves};
@@ -22,9 +22,9 @@ use std::ops::Range;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Moves {
     ends: Vec<(Point, usize)>,
-    /// From which move on rapid or not, and the feed.
+    /// Changes of rapid and feed, each from a move on.
     speeds: Vec<(usize, bool, Option<f64>)>,
-    /// The moves that are no lines.
+    /// Moves that are not lines.
     curves: Vec<(usize, Course)>,
 }
 
@@ -49,7 +49,7 @@ impl Moves {
         self.ends.push((to, line));
     }
 
-    /// The move of a number from 0; `None` behind the last.
+    /// Returns a move by its index; `None` after the last.
     #[must_use]
     pub fn get(&self, index: usize) -> Option<Move> {
         let &(to, line) = self.ends.get(index)?;
@@ -66,31 +66,31 @@ impl Moves {
         })
     }
 
-    /// Where a move ends.
+    /// Returns the end of a move.
     #[must_use]
     pub fn end(&self, index: usize) -> Option<Point> {
         self.ends.get(index).map(|end| end.0)
     }
 
-    /// The last move.
+    /// Returns the last move.
     #[must_use]
     pub fn last(&self) -> Option<Move> {
         self.get(self.len().checked_sub(1)?)
     }
 
-    /// Number of moves.
+    /// Returns the number of moves.
     #[must_use]
     pub fn len(&self) -> usize {
         self.ends.len()
     }
 
-    /// True if there is none.
+    /// True if there are no moves.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
 
-    /// The moves in order.
+    /// Returns the moves in order.
     #[must_use]
     pub fn iter(&self) -> Iter<'_> {
         Iter {
@@ -100,7 +100,7 @@ impl Moves {
     }
 }
 
-/// Moves of a drawing, one by one.
+/// Iterator over the moves of a drawing.
 #[derive(Debug, Clone)]
 pub struct Iter<'a> {
     moves: &'a Moves,

@@ -1,4 +1,4 @@
-//! Position logs in CSV: what an encoder counted, and when.
+//! Position logs in CSV: encoder counts over time.
 //!
 //! ```text
 //! time,   leftEncoder,   rightEncoder        a header is optional
@@ -6,11 +6,11 @@
 //! 7175,   12,            11                  times do not fall, counts are whole
 //! ```
 //!
-//! Fields stand between commas. Blank lines and lines that begin with `#` are skipped. What column
-//! has what [`Columns`] says, or else the log itself: see there. Times are in the unit that
-//! [`Columns::time_unit_s`] gives, else in the one that the header has, as in `Time [s]` or
-//! `time_ms`, else in the one of s, ms, us and ns in which the median step between two times lies
-//! between 10 us and 1 s. Of equal times the last count holds.
+//! Commas separate fields. Blank lines and lines that begin with `#` are skipped. [`Columns`]
+//! selects the columns or describes how they are found. The time unit is [`Columns::time_unit_s`],
+//! else the one in the header, as in `Time [s]` or `time_ms`, else the one of s, ms, us and ns in
+//! which the median step between two times is between 10 us and 1 s. Among equal times the last
+//! count is valid.
 
 mod columns;
 mod times;
@@ -28,44 +28,44 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 use times::{Time, unit_by_steps, unit_of};
 
-/// Counts that are accepted.
+/// Allowed range of counts.
 pub const COUNTS_RANGE: RangeInclusive<i64> = -(1 << 31)..=1 << 31;
 
-/// The most samples of a log.
+/// Greatest number of samples of a log.
 pub const MOST_SAMPLES: usize = 4_000_000;
 
-/// The most bytes of a record: of a file that is no log it may be the whole file.
+/// Greatest length of a record in bytes: if the file is not a log, a record may be the whole file.
 const LONGEST_RECORD: usize = 1 << 20;
 
-/// A sample of a log.
+/// Sample of a log.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
     /// Time since the first sample, in seconds.
     pub seconds: f64,
     /// Position in counts.
     pub counts: i64,
-    /// Line of the file it stands in, from 1.
+    /// Line of the file, from 1.
     pub line: usize,
 }
 
-/// A position in time.
+/// Position over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PositionLog {
-    /// The file's name as the user gave it.
+    /// Name of the file as given by the user.
     pub file: String,
-    /// The column that the times are from.
+    /// Column of the times.
     pub time: Place,
-    /// The unit that the times are in.
+    /// Unit of the times.
     pub unit: Unit,
-    /// The column that the counts are from.
+    /// Column of the counts.
     pub counts: Place,
-    /// The samples, two or more, at times that rise.
+    /// Samples, two or more, at rising times.
     pub samples: Vec<Sample>,
 }
 
 impl PositionLog {
-    /// The position in counts at a time since the first sample, on straight lines between samples;
-    /// before the first and after the last it rests.
+    /// Returns the position in counts at a time since the first sample, interpolated linearly
+    /// between samples; constant before the first and after the last.
     #[must_use]
     pub fn position_at(&self, seconds: f64) -> f64 {
         let later = self
@@ -82,13 +82,14 @@ impl PositionLog {
         }
     }
 
-    /// Time from the first to the last sample, in seconds.
+    /// Returns the time from the first to the last sample, in seconds.
     #[must_use]
     pub fn seconds(&self) -> f64 {
         self.samples.last().map_or(0.0, |sample| sample.seconds)
     }
 
-    /// The greatest speed between two samples in counts a second, and the line of the second.
+    /// Returns the greatest speed between two samples in counts per second, and the line of the
+    /// second sample.
     #[must_use]
     pub fn fastest(&self) -> (f64, usize) {
         let speed = |pair: &[Sample]| {
@@ -107,20 +108,20 @@ impl PositionLog {
 ///
 /// # Errors
 ///
-/// A path that is neither a regular file nor a pipe, cannot be read or is larger than
-/// [`LARGEST_FILE`]; and whatever [`read`] objects to.
+/// Returns an error for a path that is neither a regular file nor a pipe, cannot be read or is
+/// larger than [`LARGEST_FILE`]; and the errors of [`read`].
 pub fn read_path(path: &Path, columns: &Columns) -> Result<PositionLog, Fault> {
     let name = path.display().to_string();
     read(&name, &read_bytes(path, LARGEST_FILE)?, columns)
 }
 
-/// Reads the contents of a log that is called `name` in faults.
+/// Parses a log; faults name the file `name`.
 ///
 /// # Errors
 ///
-/// A text that is not UTF-8, a column that is not there or cannot be what it is to be, a field that
-/// is no number, a count outside [`COUNTS_RANGE`], a time that falls, times whose unit is not known,
-/// fewer than two samples at different times or more than [`MOST_SAMPLES`].
+/// Returns an error for text that is not UTF-8, a missing or unsuitable column, a field that is
+/// not a number, a count outside [`COUNTS_RANGE`], a falling time, times of unknown unit, fewer
+/// than two samples at different times or more than [`MOST_SAMPLES`].
 pub fn read(name: &str, text: &[u8], columns: &Columns) -> Result<PositionLog, Fault> {
     let log = Log { file: name, text };
     log.check_text()?;
@@ -141,7 +142,7 @@ pub fn read(name: &str, text: &[u8], columns: &Columns) -> Result<PositionLog, F
     let mut faults = Faults::default();
     let mut sample = |line, fields: &[&str], samples: &mut Vec<Sample>| {
         let at = log.time(line, &time, fields)?;
-        // In the unit of the log, which its steps may say.
+        // In the unit of the log, which its steps may determine.
         let since = at.since(*first.get_or_insert(at));
         let counts = log.counts(line, &counts, fields)?;
         if let Some(before) = samples.last_mut() {
@@ -194,8 +195,8 @@ pub fn read(name: &str, text: &[u8], columns: &Columns) -> Result<PositionLog, F
     })
 }
 
-/// A text that is handed over by lines, as long as there is room for the record under way. Comments
-/// and blank lines take none.
+/// Text that is read line by line, as long as the current record fits its limit. Comments and
+/// blank lines do not count.
 struct Lines<'a>(&'a [u8], &'a Cell<usize>);
 
 impl io::Read for Lines<'_> {
@@ -217,7 +218,7 @@ impl io::Read for Lines<'_> {
     }
 }
 
-/// A log being read.
+/// Log being read.
 struct Log<'a> {
     file: &'a str,
     text: &'a [u8],
@@ -228,7 +229,7 @@ impl Log<'_> {
         Fault::new(self.file, line, field, problem, allowed)
     }
 
-    /// A fault of a field, with its line.
+    /// Returns a fault of a field, with its line.
     fn fault_at(
         &self,
         line: usize,
@@ -249,7 +250,7 @@ impl Log<'_> {
             at += field.len() + 1;
             begin..begin + field.trim_ascii().len()
         });
-        // Within quotes there may be commas, and the line may lack the field.
+        // Quotes may contain commas, and the line may lack the field.
         let field = fields.nth(place.index).filter(|_| !written.contains(&b'"'));
         let marked = field.unwrap_or(begin..begin + written.len());
         self.fault(line, &place.name, problem, allowed)
@@ -271,7 +272,7 @@ impl Log<'_> {
         Err(self.fault(line, "file", "not UTF-8", "a position log in CSV"))
     }
 
-    /// Hands over the records with their lines, the header among them, as long as they are wanted.
+    /// Passes on the records with their lines, including the header, until `take` returns false.
     fn each(&self, mut take: impl FnMut(usize, &[&str]) -> bool) -> Result<(), Fault> {
         let room = Cell::new(0);
         let mut reader = ReaderBuilder::new()
@@ -298,7 +299,7 @@ impl Log<'_> {
         }
     }
 
-    /// The only error there is: what is read stands in memory, and the number of fields is free.
+    /// Returns the only possible error: the text is in memory, and the number of fields is free.
     fn unreadable(&self, reader: &Reader<Lines<'_>>, error: &csv::Error) -> Fault {
         let line = reader.position().line() as usize;
         let allowed = format!("records of at most {LONGEST_RECORD} bytes");
@@ -318,7 +319,7 @@ impl Log<'_> {
         time.ok_or_else(|| self.fault_at(line, place, format!("is '{field}'"), "a number"))
     }
 
-    /// The unit of the times, given the samples at times in it.
+    /// Returns the unit of the times.
     fn unit(
         &self,
         columns: &Columns,
@@ -360,7 +361,7 @@ impl Log<'_> {
     }
 }
 
-/// Counts: a whole number in range, which may be written as 12.0.
+/// Parses a count: a whole number in range, which may be written as 12.0.
 fn whole(field: &str) -> Option<i64> {
     let number: f64 = field.parse().ok()?;
     let whole = number.fract() == 0.0 && number.abs() <= i64::MAX as f64;
@@ -368,7 +369,7 @@ fn whole(field: &str) -> Option<i64> {
     counts.filter(|counts| COUNTS_RANGE.contains(counts))
 }
 
-/// The line a record begins in. What it was read from begins with what was skipped before it.
+/// Returns the line in which a record begins. Its text begins with the lines skipped before it.
 fn line_of(text: &[u8], record: &ByteRecord) -> usize {
     let (byte, line) = record
         .position()

@@ -1,28 +1,28 @@
-//! What both readers build: the moves so far, the warnings, and the drawing at the end.
+//! Output of both readers: moves so far, warnings, and the finished drawing.
 
 use std::collections::HashMap;
 
 use super::{Course, Drawing, Fault, Move, Moves, Point, REACH_MM, Warning, ZERO_MM};
 use crate::settings::tidy;
 
-/// The moves read so far and where the last one ended.
+/// Moves read so far, and the end of the last one.
 pub(super) struct Track<'a> {
     file: &'a str,
-    /// The file that is read for it.
+    /// File that is being read for it.
     within: Option<String>,
     here: Point,
     moves: Moves,
-    /// W at the end of each move, where there is one.
+    /// W at the end of each move, if there is one.
     fourth: Vec<f64>,
     zero_length: usize,
     notes: HashMap<String, Note>,
 }
 
-/// One warning in the making.
+/// Warning under construction.
 struct Note {
-    /// Its place among the notes.
+    /// Index among the notes.
     order: usize,
-    /// Where it is not the drawing's own.
+    /// File, if it is not the drawing's own.
     file: Option<String>,
     line: usize,
     text: String,
@@ -42,14 +42,14 @@ impl<'a> Track<'a> {
         }
     }
 
-    /// Says that what follows is read from another file, or none from the drawing's own.
+    /// Sets the file of the following text; `None` is the drawing's own.
     pub(super) fn within(&mut self, file: Option<&str>) {
         if self.within.as_deref() != file {
             self.within = file.map(str::to_owned);
         }
     }
 
-    /// Where the last recorded move ended.
+    /// Returns the end of the last recorded move.
     pub(super) fn here(&self) -> Point {
         self.here
     }
@@ -58,7 +58,7 @@ impl<'a> Track<'a> {
     ///
     /// # Errors
     ///
-    /// As [`Track::push`], W too.
+    /// Returns the errors of [`Track::push`], for W too.
     pub(super) fn push_with(&mut self, field: &str, next: Move, w: f64) -> Result<(), Fault> {
         self.check_reach(field, next.line, "W", w)?;
         let turns = (w - self.fourth.last().copied().unwrap_or(0.0)).abs() >= ZERO_MM;
@@ -67,17 +67,18 @@ impl<'a> Track<'a> {
         Ok(())
     }
 
-    /// Records a move, or counts it where it has zero length. Tiny moves do not get lost: the
-    /// next one starts from the last recorded end.
+    /// Records a move, or counts it if it has zero length. Tiny moves are not lost: the next one
+    /// starts from the last recorded end.
     ///
     /// # Errors
     ///
-    /// Where the end or the centre is out of reach; `field` is the instruction to blame.
+    /// Returns an error if the end or the centre is out of reach; `field` is the instruction to
+    /// blame.
     pub(super) fn push(&mut self, field: &str, next: Move) -> Result<(), Fault> {
         self.record(field, next, false)
     }
 
-    /// Records a move that may be of another axis.
+    /// Records a move; with `beside` another axis moves too.
     fn record(&mut self, field: &str, next: Move, beside: bool) -> Result<(), Fault> {
         for (axis, value) in ["X", "Y", "Z"].into_iter().zip(next.to) {
             self.check_reach(field, next.line, axis, value)?;
@@ -114,7 +115,7 @@ impl<'a> Track<'a> {
         Ok(())
     }
 
-    /// Whether a straight move to a point would be of zero length.
+    /// True if a straight move to a point would have zero length.
     pub(super) fn is_at(&self, to: Point) -> bool {
         let mut pairs = self.here.iter().zip(&to);
         pairs.all(|(from, to)| (to - from).abs() < ZERO_MM)
@@ -132,7 +133,8 @@ impl<'a> Track<'a> {
         ))
     }
 
-    /// Notes a warning. One `key` gives one warning, at its first line, with how often it came.
+    /// Adds a warning. Each `key` gives one warning, at its first line, with the number of
+    /// occurrences.
     pub(super) fn note(&mut self, key: &str, line: usize, text: impl FnOnce() -> String) {
         if let Some(note) = self.notes.get_mut(key) {
             note.times += 1;
@@ -159,11 +161,11 @@ impl<'a> Track<'a> {
         Fault::new(file, line, field, problem, allowed)
     }
 
-    /// The drawing.
+    /// Returns the drawing.
     ///
     /// # Errors
     ///
-    /// Where there is no move; `allowed` says what kind of file was wanted.
+    /// Returns an error if there is no move; `allowed` describes the expected file.
     pub(super) fn finish(mut self, allowed: &str) -> Result<Drawing, Fault> {
         self.within = None;
         if self.moves.is_empty() {

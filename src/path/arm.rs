@@ -1,4 +1,4 @@
-//! An articulated arm of three joints, and the angles of its joints where its hand is at a point.
+//! Inverse kinematics of an articulated arm with three joints.
 //!
 //! ```text
 //!                elbow
@@ -8,16 +8,16 @@
 //!           ┃ base
 //! ```
 //!
-//! `base` is the turn about the vertical through the shoulder, 0 along x; `shoulder` the elevation of
-//! the upper arm; `elbow` the angle of the forearm beyond it, below 0 where the elbow is up. The hand
-//! is where base, shoulder and elbow put it:
+//! `base` is the rotation about the vertical through the shoulder, 0 along x. `shoulder` is the
+//! elevation of the upper arm. `elbow` is the angle of the forearm relative to the upper arm,
+//! negative if the elbow is up. The position of the hand is:
 //!
 //! ```text
 //! r = upper·cos(shoulder) + fore·cos(shoulder + elbow)
 //! x = r·cos(base)    y = r·sin(base)    z = upper·sin(shoulder) + fore·sin(shoulder + elbow)
 //! ```
 //!
-//! Its pose is singular where r·sin(elbow) = 0: a joint would have to turn infinitely fast.
+//! A pose is singular if r·sin(elbow) = 0: a joint would have to turn infinitely fast.
 
 use super::vector::{add, sub};
 use crate::input::Point;
@@ -27,81 +27,81 @@ use serde::Deserialize;
 use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;
 
-/// Joints of an arm.
+/// Number of joints of an arm.
 pub const JOINTS: usize = 3;
 
-/// Their names, from the ground up.
+/// Names of the joints, from the ground up.
 pub const JOINT_NAMES: [&str; JOINTS] = ["base", "shoulder", "elbow"];
 
-/// Lengths of upper arm and forearm that are accepted, in mm.
+/// Allowed lengths of upper arm and forearm, in mm.
 const LENGTH_RANGE_MM: RangeInclusive<f64> = 1e-3..=1e6;
-/// How near to a singular pose may be told to be too near.
+/// Allowed distance from a singular pose in degrees.
 const SINGULAR_RANGE_DEG: RangeInclusive<f64> = 0.01..=45.0;
-/// Counts of a turn that are accepted.
+/// Allowed counts per turn.
 const COUNTS_RANGE: RangeInclusive<u32> = 1..=1 << 28;
 
-/// On which side of the line from shoulder to hand the elbow is.
+/// Side of the line from shoulder to hand on which the elbow is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Elbow {
-    /// Above it.
+    /// Above the line.
     #[default]
     Up,
-    /// Below it.
+    /// Below the line.
     Down,
 }
 
-/// An arm.
+/// Arm geometry.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arm {
-    /// Where its shoulder is, in mm.
+    /// Position of the shoulder in mm.
     pub shoulder_mm: Point,
-    /// From shoulder to elbow, in mm.
+    /// Length from shoulder to elbow, in mm.
     pub upper_mm: f64,
-    /// From elbow to hand, in mm.
+    /// Length from elbow to hand, in mm.
     pub fore_mm: f64,
-    /// Where its elbow is.
+    /// Side of the elbow.
     pub elbow: Elbow,
-    /// A pose is refused where the elbow is nearer than this to straight or folded, or the hand as
-    /// near to the vertical through the shoulder as the stretched arm leant by so much.
+    /// Angle in degrees within which a pose counts as singular: of the elbow from straight or
+    /// folded, or of the stretched arm from the vertical through the shoulder.
     pub singular_deg: f64,
-    /// Counts of a turn of a joint.
+    /// Counts per turn of a joint.
     pub counts_per_rev: u32,
 }
 
-/// A pose that the arm cannot take, or only just.
+/// Pose that the arm cannot take, or that is too close to a singular one.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Pose {
-    /// The elbow would be straight, or the arm too short.
+    /// The elbow would be straight, or the arm is too short.
     #[error(
         "the hand is {distance:.3} mm from the shoulder, where the elbow is straight or beyond"
     )]
     Straight {
-        /// From shoulder to hand, in mm.
+        /// Distance from shoulder to hand, in mm.
         distance: f64,
-        /// The longest that is no singular pose.
+        /// Greatest distance that is not singular, in mm.
         most: f64,
     },
-    /// The forearm would lie on the upper arm, or could not.
+    /// The forearm would be folded onto the upper arm, or the hand is too close.
     #[error("the hand is {distance:.3} mm from the shoulder, where the elbow is folded or beyond")]
     Folded {
-        /// From shoulder to hand, in mm.
+        /// Distance from shoulder to hand, in mm.
         distance: f64,
-        /// The shortest that is no singular pose.
+        /// Least distance that is not singular, in mm.
         least: f64,
     },
     /// The hand is above or below the shoulder, where the base may have any angle.
     #[error("the hand is {radius:.3} mm from the vertical through the shoulder")]
     Vertical {
-        /// How far, in mm.
+        /// Horizontal distance in mm.
         radius: f64,
-        /// The nearest that is no singular pose.
+        /// Least distance that is not singular, in mm.
         least: f64,
     },
 }
 
 impl Pose {
-    /// What would be right.
+    /// Returns the allowed distances.
     #[must_use]
     pub fn allowed(&self) -> String {
         match self {
@@ -117,7 +117,7 @@ impl Arm {
     /// Checks every field.
     ///
     /// # Errors
-    /// Names the first field at fault, its value and what is allowed.
+    /// Returns an error that names the first field at fault, its value and the allowed range.
     pub fn validate(&self) -> Result<(), SettingError> {
         self.checked()
             .map_err(|error| error.at(Place::Table("arm")))
@@ -134,10 +134,11 @@ impl Arm {
         within("counts_per_rev", self.counts_per_rev, &COUNTS_RANGE)
     }
 
-    /// The angles of its joints where the hand is at `point`, in radians; base from −π to π.
+    /// Returns the joint angles for the hand at `point`, in radians; base from −π to π.
     ///
     /// # Errors
-    /// The pose is singular, or nearer to one than is told, or out of reach.
+    /// Returns the pose if it is singular, closer to one than
+    /// [`singular_deg`](Self::singular_deg), or out of reach.
     pub fn joints(&self, point: Point) -> Result<[f64; JOINTS], Pose> {
         let [x, y, z] = sub(point, self.shoulder_mm);
         let (upper, fore) = (self.upper_mm, self.fore_mm);
@@ -168,7 +169,7 @@ impl Arm {
         Ok([y.atan2(x), z.atan2(radius) - lean, elbow])
     }
 
-    /// Where the hand is.
+    /// Returns the position of the hand.
     #[must_use]
     pub fn hand(&self, [base, shoulder, elbow]: [f64; JOINTS]) -> Point {
         let (upper, fore) = (self.upper_mm, self.fore_mm);
@@ -178,11 +179,11 @@ impl Arm {
         add(self.shoulder_mm, hand)
     }
 
-    /// The angles of its joints where the hand goes on to `point`, in radians: the base goes on from
-    /// `last` where it has turned half a turn.
+    /// Returns the joint angles for the hand at the next `point`, in radians: the base continues
+    /// from `last` beyond half a turn.
     ///
     /// # Errors
-    /// Those of [`Arm::joints`].
+    /// Returns the errors of [`Arm::joints`].
     pub fn next(&self, last: Option<[f64; JOINTS]>, point: Point) -> Result<[f64; JOINTS], Pose> {
         let [base, shoulder, elbow] = self.joints(point)?;
         let base = match last {
@@ -192,7 +193,7 @@ impl Arm {
         Ok([base, shoulder, elbow])
     }
 
-    /// Counts of a radian of a joint.
+    /// Returns the counts per radian of a joint.
     #[must_use]
     pub fn counts_per_radian(&self) -> f64 {
         f64::from(self.counts_per_rev) / TAU
@@ -226,7 +227,7 @@ mod tests {
         for (joint, expected) in joints.iter().zip(expected) {
             assert!((joint - expected).abs() < 1e-12, "{joints:?}");
         }
-        // The other elbow: upper arm level, forearm upright, turned to y.
+        // The other elbow: upper arm horizontal, forearm vertical, turned to y.
         let down = Arm {
             elbow: Elbow::Down,
             ..ARM
@@ -256,7 +257,7 @@ mod tests {
             })
         ));
         assert!(matches!(along(1.0), Err(Pose::Folded { .. })));
-        // Leant by 1°.
+        // Leaned by 1°.
         let radius = 650.0 * 1f64.to_radians().sin();
         let above = |x| ARM.joints(at([0.0, x, -400.0]));
         assert!(above(radius + 1e-9).is_ok());

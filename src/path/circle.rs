@@ -1,43 +1,45 @@
-//! An arc in space: from three points, or from a centre and two points.
+//! Arc in space: from three points, or from a centre and two points.
 
 use super::vector::{add, cross, distance, dot, norm, scale, sub, unit};
 use crate::input::{COORDINATES, Point, ZERO_MM};
 use crate::settings::tidy;
 use std::f64::consts::{PI, TAU};
 
-/// Three points are on a line where the middle one is off it by less than this part of the
-/// longest distance between them: below it their circle is made of rounding errors.
+/// Three points count as collinear if the distance of the middle one from the line is less than
+/// this part of the longest distance between them: their circle would be determined by rounding
+/// errors.
 pub const COLLINEAR: f64 = 1e-9;
 
-/// How far a given centre may be moved for both radii to agree, as a part of the radius.
+/// Greatest distance by which a given centre is moved to make both radii equal, as a part of the
+/// radius.
 pub const CENTRE_MOVE: f64 = 0.05;
 
-/// An arc: a vector from the centre that turns around an axis, counterclockwise as seen from the
-/// axis' end.
+/// Arc: a vector from the centre that rotates about an axis, counterclockwise seen from the end of
+/// the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Circle {
-    /// G.
+    /// Centre G.
     pub centre: Point,
-    /// k, of length 1.
+    /// Unit vector k of the axis.
     pub axis: Point,
-    /// A, where the arc begins.
+    /// Start A.
     pub start: Point,
-    /// R.
+    /// Radius R.
     pub radius: f64,
-    /// θ: from the start to the end, above 0 and up to a whole turn, in radians.
+    /// Angle θ from start to end in radians, above 0 and up to a whole turn.
     pub angle: f64,
 }
 
-/// Points that make no arc.
+/// Reason why points do not define an arc.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum CircleError {
-    /// Two of the points are the same.
+    /// Two of the points are equal.
     #[error("{} and {} are the same point", points[0], points[1])]
     Coincident {
-        /// Which: "start", "via", "end", "centre".
+        /// Names: "start", "via", "end", "centre".
         points: [&'static str; 2],
     },
-    /// The three points are on a line.
+    /// The three points are collinear.
     #[error(
         "the point via is only {} mm off the line from start to end, {} mm long",
         tidy(*off),
@@ -49,13 +51,13 @@ pub enum CircleError {
         /// Distance of A and C.
         chord: f64,
     },
-    /// Start and end are not at the same height along the axis.
+    /// Start and end are at different heights along the axis.
     #[error("climbs {} mm along its axis: a helix", tidy(*rise))]
     Helix {
         /// Difference in height of start and end.
         rise: f64,
     },
-    /// No centre near the given one has the same radius to both ends.
+    /// No centre near the given one has equal distances to both ends.
     #[error("the radius is {} mm at the start and {} mm at the end", tidy(*from), tidy(*to))]
     Radii {
         /// Distance of the start from the centre.
@@ -66,11 +68,11 @@ pub enum CircleError {
 }
 
 impl Circle {
-    /// The arc from `a` over `b` to `c`: G is equidistant from all three, and the axis
-    /// (B − A)×(C − B) gives the right direction for any arc.
+    /// Creates the arc from `a` over `b` to `c`: G is equidistant from all three, and the axis (B
+    /// − A)×(C − B) gives the right direction for any arc.
     ///
     /// # Errors
-    /// Two points are the same, or all three are on a line.
+    /// Returns an error if two points are equal, or all three are collinear.
     pub fn through(a: Point, b: Point, c: Point) -> Result<Self, CircleError> {
         for (points, p, q) in [
             (["start", "via"], a, b),
@@ -81,7 +83,7 @@ impl Circle {
                 return Err(CircleError::Coincident { points });
             }
         }
-        // From A, for large coordinates not to cost digits.
+        // Relative to A, so that large coordinates do not lose digits.
         let (u, v) = (sub(b, a), sub(c, a));
         let normal = cross(u, v);
         let chord = norm(v);
@@ -103,13 +105,13 @@ impl Circle {
         Ok(circle)
     }
 
-    /// The arc from `from` to `to` around an axis through `centre`; where they are the same point,
-    /// the whole circle. The centre is moved onto the bisector of the chord, so that both radii
+    /// Creates the arc from `from` to `to` around an axis through `centre`; a whole circle if both
+    /// points are equal. The centre is moved onto the bisector of the chord, so that both radii
     /// agree, and along the axis into the plane of the arc.
     ///
     /// # Errors
-    /// The start is on the axis, the end is at another height, or the centre would have to be moved
-    /// by more than [`CENTRE_MOVE`] of the radius.
+    /// Returns an error if the start is on the axis, the end is at another height, or the centre
+    /// would have to be moved by more than [`CENTRE_MOVE`] of the radius.
     pub fn around(centre: Point, from: Point, to: Point, axis: Point) -> Result<Self, CircleError> {
         let axis = unit(axis);
         let chord = sub(to, from);
@@ -155,7 +157,7 @@ impl Circle {
         Ok(circle)
     }
 
-    /// The point at an angle from the start.
+    /// Returns the point at an angle from the start.
     #[must_use]
     pub fn point(&self, angle: f64) -> Point {
         let (sin, cos) = angle.sin_cos();
@@ -163,7 +165,7 @@ impl Circle {
         std::array::from_fn(|k| self.centre[k] + u[k] * cos + w[k] * sin)
     }
 
-    /// Direction of motion at an angle from the start, of length 1.
+    /// Returns the unit direction of motion at an angle from the start.
     #[must_use]
     pub fn direction(&self, angle: f64) -> Point {
         let (sin, cos) = angle.sin_cos();
@@ -171,25 +173,25 @@ impl Circle {
         unit(sub(scale(w, cos), scale(u, sin)))
     }
 
-    /// Where the arc ends.
+    /// Returns the end of the arc.
     #[must_use]
     pub fn end(&self) -> Point {
         self.point(self.angle)
     }
 
-    /// Length along the arc.
+    /// Returns the length of the arc.
     #[must_use]
     pub fn length(&self) -> f64 {
         self.radius * self.angle
     }
 
-    /// Distance of a point from the arc.
+    /// Returns the distance of a point from the arc.
     #[must_use]
     pub fn distance(&self, point: Point) -> f64 {
         distance(point, self.nearest(point))
     }
 
-    /// The point of the arc that is nearest to a point; the start for one on its axis.
+    /// Returns the point of the arc nearest to a point; the start for a point on the axis.
     #[must_use]
     pub fn nearest(&self, point: Point) -> Point {
         let angle = self.angle_of(point);
@@ -201,7 +203,7 @@ impl Circle {
         ends[usize::from(to_end < to_start)]
     }
 
-    /// How far a point is outside the circle, and above its plane.
+    /// Returns the distance of a point outside the circle, and above its plane.
     #[must_use]
     pub fn off(&self, point: Point) -> [f64; 2] {
         let vector = sub(point, self.centre);
@@ -210,7 +212,7 @@ impl Circle {
         [flat - self.radius, height]
     }
 
-    /// Least and largest value of each coordinate on the arc.
+    /// Returns least and greatest value of each coordinate on the arc.
     #[must_use]
     pub fn extremes(&self) -> [[f64; 2]; COORDINATES] {
         let [u, w] = self.frame();
@@ -232,7 +234,7 @@ impl Circle {
         })
     }
 
-    /// Angle of a point from the start on, 0 to below a whole turn.
+    /// Returns the angle of a point from the start, 0 to below a whole turn.
     fn angle_of(&self, point: Point) -> f64 {
         let [u, w] = self.frame();
         let vector = sub(point, self.centre);
@@ -240,7 +242,7 @@ impl Circle {
         if angle < 0.0 { angle + TAU } else { angle }
     }
 
-    /// The vector to the start, and what it becomes by a quarter turn.
+    /// Returns the vector to the start, and that vector rotated by a quarter turn.
     fn frame(&self) -> [Point; 2] {
         let vector = sub(self.start, self.centre);
         [vector, cross(self.axis, vector)]

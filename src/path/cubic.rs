@@ -1,12 +1,13 @@
-//! A cubic curve in space, and the smooth curve of cubics through points.
+//! Cubic curve in space, and smooth cubic splines through points.
 
 use super::vector::{add, distance, dot, norm, scale, sub, unit};
 use crate::input::{COORDINATES, Point};
 
-/// A derivative shorter than this part of the longest control vector has no direction of its own.
+/// Length of a derivative, relative to the longest control vector, below which it has no
+/// direction.
 const NONE: f64 = 1e-9;
 
-/// Nodes and weights of Gauss and Legendre on −1 … 1, of which the other halves are mirrored.
+/// Nodes and weights of the Gauss-Legendre quadrature on −1 … 1; the other halves are mirrored.
 const GAUSS: [[f64; 2]; 4] = [
     [0.183_434_642_495_649_8, 0.362_683_783_378_362],
     [0.525_532_409_916_329, 0.313_706_645_877_887_3],
@@ -14,15 +15,15 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.960_289_856_497_536_3, 0.101_228_536_290_376_26],
 ];
 
-/// A cubic curve by its control points in Bézier's form: it begins at the first and ends at the last.
+/// Cubic Bézier curve by its control points; it begins at the first and ends at the last.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cubic {
-    /// In mm.
+    /// Control points in mm.
     pub points: [Point; 4],
 }
 
 impl Cubic {
-    /// The point at a parameter, 0 to 1.
+    /// Returns the point at a parameter, 0 to 1.
     #[must_use]
     pub fn point(&self, t: f64) -> Point {
         let u = 1.0 - t;
@@ -30,7 +31,7 @@ impl Cubic {
         std::array::from_fn(|k| (0..4).map(|of| weights[of] * self.points[of][k]).sum())
     }
 
-    /// The derivative by the parameter.
+    /// Returns the derivative by the parameter.
     #[must_use]
     pub fn derivative(&self, t: f64) -> Point {
         let u = 1.0 - t;
@@ -39,13 +40,13 @@ impl Cubic {
         scale(add(sum, scale(c, t * t)), 3.0)
     }
 
-    /// From each control point to the next.
+    /// Returns the vectors from each control point to the next.
     fn ways(&self) -> [Point; 3] {
         std::array::from_fn(|k| sub(self.points[k + 1], self.points[k]))
     }
 
-    /// Direction of motion just behind a parameter, or just before it, of length 1; where the
-    /// derivative is zero that of the next one that is not.
+    /// Returns the unit direction of motion just after a parameter, or with `before` just before
+    /// it. If the derivative is zero, the next nonzero one gives the direction.
     #[must_use]
     pub fn direction(&self, t: f64, before: bool) -> Point {
         let [a, b, c] = self.ways();
@@ -58,7 +59,8 @@ impl Cubic {
         unit(found.unwrap_or(third))
     }
 
-    /// Length between two parameters, by quadrature in four parts: where each of them ends.
+    /// Returns the lengths from a parameter to the ends of four equal parts up to another, by
+    /// quadrature.
     #[must_use]
     pub fn lengths(&self, from: f64, to: f64) -> [f64; 4] {
         let half = (to - from) / 8.0;
@@ -76,19 +78,19 @@ impl Cubic {
         })
     }
 
-    /// Length in mm.
+    /// Returns the length in mm.
     #[must_use]
     pub fn length(&self) -> f64 {
         let parts = (0..16).map(|part| [part, part + 1].map(|at| f64::from(at) / 16.0));
         parts.map(|[from, to]| self.lengths(from, to)[3]).sum()
     }
 
-    /// Least and largest value of each coordinate.
+    /// Returns least and greatest value of each coordinate.
     #[must_use]
     pub fn extremes(&self) -> [[f64; 2]; COORDINATES] {
         let [a, b, c] = self.ways();
         std::array::from_fn(|k| {
-            // Where a·(1 − t)² + 2b·t(1 − t) + c·t² is 0, by the form that does not cancel.
+            // Roots of a·(1 − t)² + 2b·t(1 − t) + c·t², in the form without cancellation.
             let (square, half) = (a[k] - 2.0 * b[k] + c[k], b[k] - a[k]);
             let root = (half * half - square * a[k]).max(0.0).sqrt();
             let sum = -(half + root.copysign(half));
@@ -102,8 +104,8 @@ impl Cubic {
         })
     }
 
-    /// The point of it that is nearest to a point, among those where its distance turns in one of
-    /// 64 parts.
+    /// Returns the point of the curve nearest to a point, among those at which the distance is
+    /// extreme, one in each of 64 parts.
     #[must_use]
     pub fn nearest(&self, point: Point) -> Point {
         let ahead = |t: f64| dot(sub(self.point(t), point), self.derivative(t));
@@ -111,11 +113,11 @@ impl Cubic {
         nearest(point, self.points[3], turns)
     }
 
-    /// The curve through points, of which there are two or more and none is the one before it: a
-    /// cubic between each and the next. The parameter is the length of the chords, and at each inner
-    /// point both derivatives by it meet, so that direction and curvature do. Where the last
-    /// point is the first, and there are three spans or more, that is so there too; else the
-    /// curvature is 0 at both ends.
+    /// Returns the curve through two or more points, none equal to the one before: a cubic between
+    /// each pair. The parameter is the chord length. At each inner point the first and second
+    /// derivatives by it are continuous, and so are direction and curvature. If the last point
+    /// equals the first and there are at least three spans, they are continuous there too;
+    /// otherwise the curvature is 0 at both ends.
     #[must_use]
     pub fn through(points: &[Point]) -> Vec<Self> {
         let spans = points.len().saturating_sub(1);
@@ -123,8 +125,8 @@ impl Cubic {
         let slope = |k: usize| scale(sub(points[k + 1], points[k]), 1.0 / chord(k));
         let closed = spans >= 3 && points[0] == points[spans];
         let mut at: Vec<Point> = vec![[0.0; COORDINATES]; points.len()];
-        // The sum of a row's other coefficients is half its own: each round takes half of what the
-        // derivatives are off.
+        // The sum of a row's other coefficients is half its own: each round halves the error of
+        // the derivatives.
         for _ in 0..64 {
             for k in 0..=spans {
                 let (before, behind) = match k {
@@ -161,7 +163,7 @@ impl Cubic {
     }
 }
 
-/// The point of some that is nearest to a point.
+/// Returns the one of some points that is nearest to a point.
 pub(crate) fn nearest(point: Point, first: Point, others: impl Iterator<Item = Point>) -> Point {
     let off = |at: &Point| distance(*at, point);
     others.fold(first, |best, at| match off(&at) < off(&best) {
@@ -170,7 +172,7 @@ pub(crate) fn nearest(point: Point, first: Point, others: impl Iterator<Item = P
     })
 }
 
-/// [`rise`] in each of so many parts between two numbers.
+/// Returns [`rise`] in each of `parts` parts between two numbers.
 pub(crate) fn rises(
     [from, to]: [f64; 2],
     parts: u32,
@@ -180,8 +182,8 @@ pub(crate) fn rises(
     (0..parts).map(move |part| rise([part, part + 1].map(end), &of))
 }
 
-/// Where a function goes from below to above zero between two numbers, if it does; one of them if
-/// not.
+/// Returns the position between two numbers at which a function rises through zero, or one of them
+/// if it does not.
 pub(crate) fn rise([mut from, mut to]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
     if of(from) >= 0.0 {
         return from;

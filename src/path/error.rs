@@ -1,4 +1,4 @@
-//! Why a path cannot be generated.
+//! Errors of path generation.
 
 use super::arm::Pose;
 use super::circle::CircleError;
@@ -6,14 +6,14 @@ use crate::plan::digits::{round_down, round_up};
 use crate::settings::tidy;
 use std::fmt;
 
-/// A piece that cannot be generated.
+/// Piece that cannot be generated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathError {
-    /// The piece, from 0.
+    /// Index of the piece, from 0.
     pub piece: usize,
-    /// Line of the input it stands in.
+    /// Line of the piece in the input.
     pub line: Option<usize>,
-    /// What is wrong.
+    /// Reason.
     pub reason: Reason,
 }
 
@@ -29,53 +29,53 @@ impl fmt::Display for PathError {
     }
 }
 
-/// What is wrong with a piece.
+/// Reason why a piece cannot be generated.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Reason {
     /// The path has no piece.
     #[error("the path is empty")]
     Empty,
-    /// The piece has no speed and there is none for all.
+    /// The piece has no speed and there is no default.
     #[error("missing")]
     NoSpeed,
-    /// The speed is none.
+    /// The speed is not positive.
     #[error("is {} mm/s", tidy(*speed))]
     Speed {
-        /// In mm/s.
+        /// Speed in mm/s.
         speed: f64,
     },
     /// A coordinate is not a number.
     #[error("{axis} is {value}")]
     Coordinate {
-        /// "x", "y" or "z".
+        /// Axis: "x", "y" or "z".
         axis: &'static str,
-        /// In mm.
+        /// Value in mm.
         value: f64,
     },
     /// A coordinate of the point via is not a number.
     #[error("{axis} is {value}")]
     Via {
-        /// "x", "y" or "z".
+        /// Axis: "x", "y" or "z".
         axis: &'static str,
-        /// In mm.
+        /// Value in mm.
         value: f64,
     },
-    /// The points make no line or arc.
+    /// The points define no line or arc.
     #[error(transparent)]
     Circle(#[from] CircleError),
-    /// The circuit makes lines and arcs only.
+    /// The circuit supports lines and arcs only.
     #[error("is a spline")]
     Spline,
-    /// A fourth axis moves along a spline, which has no word for it.
+    /// A fourth axis moves along a spline, for which there is no record format.
     #[error("is a spline along which W moves")]
     Climb,
-    /// The arc or spline does not begin or end where the path does.
+    /// The arc or spline does not begin or end at the path's points.
     #[error("the curve is {} mm off the path's points", tidy(*gap))]
     Gap {
         /// Distance in mm.
         gap: f64,
     },
-    /// A blend would reach farther around the arc than 60°.
+    /// A blend would extend along the arc by more than 60°.
     #[error(
         "at {} mm/s a blend reaches {} mm along an arc of {} mm radius",
         tidy(*speed),
@@ -83,13 +83,13 @@ pub enum Reason {
         tidy(*radius)
     )]
     Tight {
-        /// The wanted speed.
+        /// Requested speed in mm/s.
         speed: f64,
-        /// Vs·ta.
+        /// Length Vs·ta in mm.
         chord: f64,
-        /// R.
+        /// Radius R in mm.
         radius: f64,
-        /// The largest speed that fits.
+        /// Greatest possible speed in mm/s.
         most: f64,
     },
     /// The blends at both ends overlap.
@@ -99,73 +99,73 @@ pub enum Reason {
         tidy(*length)
     )]
     Overlap {
-        /// The wanted speed.
+        /// Requested speed in mm/s.
         speed: f64,
-        /// Length of the piece.
+        /// Length of the piece in mm.
         length: f64,
-        /// The largest speed that fits.
+        /// Greatest possible speed in mm/s.
         most: f64,
     },
-    /// The speed is too slow for the fraction that the linear interpolator has of it.
+    /// The speed is below the resolution of the linear interpolator.
     #[error("at {} mm/s the axis with the longer way goes too few counts in a scan", tidy(*speed))]
     Slow {
-        /// The wanted speed.
+        /// Requested speed in mm/s.
         speed: f64,
-        /// The smallest speed that it can go in this direction.
+        /// Least possible speed in this direction, in mm/s.
         least: f64,
     },
-    /// More samples than a record can hold.
+    /// The piece takes more samples than a record can hold.
     #[error("takes {} samples at {} mm/s", tidy(*samples), tidy(*speed))]
     Samples {
-        /// The wanted speed.
+        /// Requested speed in mm/s.
         speed: f64,
-        /// What it would take.
+        /// Number of samples needed.
         samples: f64,
-        /// What a record can hold.
+        /// Greatest number of samples in a record.
         most: u64,
     },
-    /// The memory has no room for so many segments.
+    /// The memory has no space for all segments.
     #[error("the path has {count} segments, which take addresses of A = {needed} bits")]
     Segments {
-        /// Segments of the path.
+        /// Number of segments of the path.
         count: usize,
-        /// What the memory holds.
+        /// Number of segments in the memory.
         most: usize,
-        /// The width that its address would need.
+        /// Address width needed, in bits.
         needed: usize,
     },
-    /// The arm cannot be in a pose that the piece needs, or is too near to one.
+    /// The arm cannot take a pose of the piece, or is too close to a singular one.
     #[error("{} s from the start {pose}", tidy(*time_s))]
     Pose {
-        /// When, in seconds.
+        /// Time in seconds.
         time_s: f64,
-        /// The pose.
+        /// Pose at fault.
         pose: Pose,
     },
-    /// The path leaves the plane of two axes.
+    /// The path leaves the plane of the two axes.
     #[error("leaves the plane of x and y by {} mm", tidy(*off))]
     Plane {
-        /// How far, in mm.
+        /// Distance from the plane in mm.
         off: f64,
     },
-    /// A coordinate, centre, radius or length does not fit in the words.
+    /// A coordinate, centre, radius or length does not fit in its words.
     #[error("{what} reaches {counts:.1} counts, which needs W = {needed}")]
     Reach {
-        /// "x", "centre x", "radius" and so on.
+        /// Name of the quantity: "x", "centre x", "radius" and so on.
         what: &'static str,
-        /// How far it reaches, in counts, with the error of the arithmetic.
+        /// Greatest value in counts, including the error of the arithmetic.
         counts: f64,
-        /// The farthest that fits.
+        /// Greatest value that fits, in counts.
         most: i64,
-        /// The width of the words.
+        /// Width of the words in bits.
         width: usize,
-        /// The width that it would need.
+        /// Width needed in bits.
         needed: usize,
     },
 }
 
 impl Reason {
-    /// The key of a scenario's piece that is at fault.
+    /// Returns the key of the scenario's piece that is at fault.
     #[must_use]
     pub fn field(&self) -> &'static str {
         match self {
@@ -191,7 +191,7 @@ impl Reason {
         }
     }
 
-    /// The word of a part program's block that is at fault.
+    /// Returns the word of the part program's block that is at fault.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
@@ -211,7 +211,7 @@ impl Reason {
         }
     }
 
-    /// What would be right.
+    /// Returns the allowed values.
     #[must_use]
     pub fn allowed(&self) -> String {
         let at_most = |speed: &f64| {

@@ -1,4 +1,4 @@
-//! A helix: an arc that climbs along its axis in proportion to its angle.
+//! Helix: an arc that climbs along its axis in proportion to its angle.
 
 use super::circle::{Circle, CircleError};
 use super::cubic::{nearest, rises};
@@ -6,21 +6,21 @@ use super::vector::{add, dot, scale, sub, unit};
 use crate::input::{COORDINATES, Point};
 use std::f64::consts::TAU;
 
-/// A helix.
+/// Helix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Helix {
-    /// The arc from its start on, in whose direction it turns.
+    /// Arc in the plane of its start.
     pub circle: Circle,
-    /// How far it climbs along the axis, up to its end, in mm.
+    /// Climb along the axis from start to end, in mm.
     pub rise: f64,
 }
 
 impl Helix {
-    /// The helix from `from` to `to` around an axis through `centre`, as
-    /// [`Circle::around`] makes its arc; where both are above each other, a whole turn.
+    /// Creates the helix from `from` to `to` around an axis through `centre`, as
+    /// [`Circle::around`] makes its arc; a whole turn if one point is above the other.
     ///
     /// # Errors
-    /// As of the arc.
+    /// Returns the errors of [`Circle::around`].
     pub fn around(centre: Point, from: Point, to: Point, axis: Point) -> Result<Self, CircleError> {
         let axis = unit(axis);
         let rise = dot(sub(to, from), axis);
@@ -29,14 +29,14 @@ impl Helix {
         Ok(Helix { circle, rise })
     }
 
-    /// The point at a part of its length, 0 to 1.
+    /// Returns the point at a part of the length, 0 to 1.
     #[must_use]
     pub fn point(&self, part: f64) -> Point {
         let flat = self.circle.point(self.circle.angle * part);
         add(flat, scale(self.circle.axis, self.rise * part))
     }
 
-    /// Direction of motion at a part of its length.
+    /// Returns the unit direction of motion at a part of the length.
     #[must_use]
     pub fn direction(&self, part: f64) -> Point {
         let around = self.circle.direction(self.circle.angle * part);
@@ -44,20 +44,20 @@ impl Helix {
         unit(add(around, scale(self.circle.axis, self.rise)))
     }
 
-    /// Length along it.
+    /// Returns the length.
     #[must_use]
     pub fn length(&self) -> f64 {
         self.circle.length().hypot(self.rise)
     }
 
-    /// Its radius of curvature.
+    /// Returns the radius of curvature.
     #[must_use]
     pub fn curvature_radius(&self) -> f64 {
         let (radius, climb) = (self.circle.radius, self.rise / self.circle.angle);
         radius + climb * climb / radius
     }
 
-    /// Least and largest value of each coordinate, or beyond.
+    /// Returns bounds of each coordinate.
     #[must_use]
     pub fn extremes(&self) -> [[f64; 2]; COORDINATES] {
         let flat = self.circle.extremes();
@@ -67,7 +67,7 @@ impl Helix {
         })
     }
 
-    /// The point of it that is nearest to a point.
+    /// Returns the point of the helix nearest to a point.
     #[must_use]
     pub fn nearest(&self, point: Point) -> Point {
         let parts = (self.circle.angle / TAU * 8.0).ceil() as u32;

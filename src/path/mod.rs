@@ -1,6 +1,6 @@
-//! Paths in space, which arc generator and trajectory controller both run along: their pieces, the
-//! geometry of arcs and splines, the joints of an arm whose hand goes along them, and records as a
-//! control computer writes them.
+//! Paths in space for arc generator and trajectory controller: their pieces, the geometry of arcs
+//! and splines, the joints of an arm whose hand follows them, and records as a control computer
+//! writes them.
 
 pub mod arm;
 pub mod circle;

@@ -1,4 +1,4 @@
-//! A path as it is wanted: pieces, from taught points or from the moves of a drawing.
+//! Path as requested: pieces from taught points or from the moves of a drawing.
 
 use super::circle::{Circle, CircleError};
 use super::cubic::Cubic;
@@ -7,24 +7,24 @@ use super::helix::Helix;
 use super::vector::{add, distance, dot, scale, sub, unit};
 use crate::input::{self, COORDINATES, Drawing, Move, Point, ZERO_MM};
 
-/// How far an arc may be off the path's points, as a part of its length and 1 mm.
+/// Greatest distance of an arc from the path's points, as a part of its length plus 1 mm.
 const GAP: f64 = 1e-6;
 
-/// How a piece gets to its end.
+/// Path of a piece to its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Course {
-    /// Straight.
+    /// Straight line.
     Line,
-    /// On an arc, which begins where the piece before ends.
+    /// Arc, which begins at the end of the piece before.
     Arc(Circle),
-    /// On a helix, likewise.
+    /// Helix, which begins at the end of the piece before.
     Helix(Helix),
-    /// On a spline, likewise.
+    /// Spline, which begins at the end of the piece before.
     Spline(Cubic),
 }
 
 impl Course {
-    /// Length in mm.
+    /// Returns the length in mm.
     #[must_use]
     pub fn length(&self, from: Point, to: Point) -> f64 {
         match self {
@@ -35,7 +35,7 @@ impl Course {
         }
     }
 
-    /// The point of it that is nearest to a point.
+    /// Returns the point of the course nearest to a point.
     #[must_use]
     pub fn nearest(&self, from: Point, to: Point, point: Point) -> Point {
         match self {
@@ -54,7 +54,7 @@ impl Course {
         }
     }
 
-    /// Least and largest value of each coordinate, or beyond; of a line those of its end.
+    /// Returns bounds of each coordinate; for a line only those of its end.
     #[must_use]
     pub fn extremes(&self, to: Point) -> [[f64; 2]; COORDINATES] {
         match self {
@@ -65,10 +65,10 @@ impl Course {
         }
     }
 
-    /// Its arc, for who runs lines and arcs; none of a line.
+    /// Returns the arc, for circuits that support lines and arcs only; `None` for a line.
     ///
     /// # Errors
-    /// It is a helix or a spline.
+    /// Returns an error for a helix or a spline.
     pub fn arc(&self) -> Result<Option<&Circle>, Reason> {
         match self {
             Course::Line => Ok(None),
@@ -81,7 +81,7 @@ impl Course {
         }
     }
 
-    /// Direction of motion at its start and at its end; not a number for a line without length.
+    /// Returns the directions of motion at start and end; not a number for a line without length.
     #[must_use]
     pub fn directions(&self, from: Point, to: Point) -> [Point; 2] {
         match self {
@@ -93,24 +93,24 @@ impl Course {
     }
 }
 
-/// One piece of a path, from the end of the piece before it.
+/// Piece of a path, from the end of the piece before it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
-    /// Straight, on an arc, a helix or a spline.
+    /// Path to the end.
     pub course: Course,
-    /// Where it ends, in mm.
+    /// End in mm.
     pub to: Point,
-    /// Vs: the speed that is wanted, in mm/s.
+    /// Requested speed Vs in mm/s.
     pub speed: f64,
-    /// Line of the input it stands in.
+    /// Line of the piece in the input.
     pub line: Option<usize>,
 }
 
 impl Piece {
-    /// Checks that it is made of numbers, has a speed, and meets the path's points.
+    /// Checks that the piece has finite numbers and a speed, and meets the path's points.
     ///
     /// # Errors
-    /// The first that does not hold.
+    /// Returns the first reason against it.
     pub(crate) fn check(&self, from: Point) -> Result<(), Reason> {
         for point in [from, self.to] {
             if let Some((axis, value)) = no_number(point) {
@@ -135,40 +135,40 @@ impl Piece {
     }
 }
 
-/// The first coordinate that is not a number, if one is not.
+/// Returns the first coordinate that is not a number.
 fn no_number(point: Point) -> Option<(&'static str, f64)> {
     let mut named = ["x", "y", "z"].into_iter().zip(point);
     named.find(|(_, value)| !value.is_finite())
 }
 
-/// The speeds of the pieces that have none of their own.
+/// Default speeds of pieces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Speeds {
-    /// Of all but rapid moves, in mm/s.
+    /// Speed of all but rapid moves, in mm/s.
     pub wanted: Option<f64>,
-    /// Of rapid moves, in mm/s.
+    /// Speed of rapid moves, in mm/s.
     pub rapid: f64,
 }
 
-/// A piece as it is taught: by points.
+/// Piece given by taught points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Taught {
-    /// C: where it ends, in mm.
+    /// End C in mm.
     pub to: Point,
-    /// B: a point of the arc; without it the piece is a line or a spline.
+    /// Point B of the arc; without it the piece is a line or a spline.
     pub via: Option<Point>,
-    /// The piece is a spline: one curve through the ends of all such pieces in a row.
+    /// True for a spline: a single curve passes through the ends of consecutive such pieces.
     pub spline: bool,
-    /// Its speed in mm/s, where it has its own.
+    /// Own speed in mm/s.
     pub speed: Option<f64>,
 }
 
-/// The pieces of taught points.
+/// Returns the pieces of taught points.
 ///
 /// # Errors
-/// Three points that make no arc, or one via that is not made of numbers; a spline with an end that
-/// is not, or is that of the piece before; a piece without a speed where there is none for all
-/// either.
+/// Returns an error for three points that define no arc, a via point or spline end that is not
+/// made of numbers, a spline end equal to that of the piece before, or a piece without a speed if
+/// there is no default.
 pub fn from_points(
     start: Point,
     taught: &[Taught],
@@ -203,7 +203,7 @@ pub fn from_points(
     pieces.collect()
 }
 
-/// The curve of each piece that is a spline.
+/// Returns the curve of each piece that is a spline.
 fn splines(start: Point, taught: &[Taught]) -> Result<Vec<Option<Cubic>>, PathError> {
     let mut curves = vec![None; taught.len()];
     let mut points = vec![start];
@@ -237,11 +237,12 @@ fn splines(start: Point, taught: &[Taught]) -> Result<Vec<Option<Cubic>>, PathEr
     Ok(curves)
 }
 
-/// The pieces of a drawing's or a part program's moves. The path begins at `drawing.start`.
+/// Returns the pieces of the moves of a drawing or part program. The path begins at
+/// `drawing.start`.
 ///
 /// # Errors
-/// An arc whose centre fits no arc; a move without a feed where there is no speed for
-/// all either.
+/// Returns an error for an arc whose centre does not fit its ends, or a move without a feed if
+/// there is no default.
 pub fn from_drawing(drawing: &Drawing, speeds: impl Into<Speeds>) -> Result<Vec<Piece>, PathError> {
     let speeds = speeds.into();
     let mut from = drawing.start;

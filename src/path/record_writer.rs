@@ -1,20 +1,20 @@
-//! What a control computer gives to a record memory: a word a tick, as there is room.
+//! Control computer that writes to a record memory: one word per tick, as long as there is room.
 
 use super::record::{Record, WORDS};
 use crate::circuits::blocks::RecordWrite;
 use crate::hdl::Value;
 
-/// Records that are written one after the other.
+/// Writer of records in sequence.
 #[derive(Debug)]
 pub(crate) struct RecordWriter<'a> {
     records: &'a [Record],
     record: usize,
     word: usize,
-    /// There was a free record in the tick before, and no push that may have taken the last.
+    /// True if a record was free in the tick before, and no push may have taken the last one.
     pub(crate) free: bool,
 }
 
-/// What stands at the memory's ports where nothing is written.
+/// Idle state of the memory's ports.
 const NOTHING: RecordWrite<Value> = RecordWrite {
     write: false,
     write_word: 0,
@@ -23,7 +23,7 @@ const NOTHING: RecordWrite<Value> = RecordWrite {
 };
 
 impl<'a> RecordWriter<'a> {
-    /// Of records, for an empty memory.
+    /// Creates a writer of records for an empty memory.
     pub(crate) fn new(records: &'a [Record]) -> Self {
         RecordWriter {
             records,
@@ -33,23 +33,23 @@ impl<'a> RecordWriter<'a> {
         }
     }
 
-    /// How many are written.
+    /// Returns the number of records written.
     pub(crate) fn written(&self) -> usize {
         self.record
     }
 
-    /// Whether it writes nothing of the first so many records as long as there is no more room.
+    /// True if nothing of the first `records` records can be written before there is room.
     pub(crate) fn stands(&self, records: usize) -> bool {
         self.record >= records.min(self.records.len()) || !self.free
     }
 
-    /// The word of this tick.
+    /// Returns the write of this tick.
     pub(crate) fn write(&mut self) -> RecordWrite<Value> {
         self.write_up_to(self.records.len())
     }
 
-    /// The word of this tick, of the first so many records: a path that ends at rest ends where no
-    /// record waits.
+    /// Returns the write of this tick, among the first `records` records: a path that ends at rest
+    /// ends only if no record waits.
     pub(crate) fn write_up_to(&mut self, records: usize) -> RecordWrite<Value> {
         if self.record >= records {
             return NOTHING;

@@ -1,36 +1,36 @@
-//! Points and vectors in space, and Rodrigues' rotation of them.
+//! Points and vectors in space, and their rotation by Rodrigues' formula.
 
 use crate::input::{COORDINATES, Point};
 pub(crate) use crate::plan::norm;
 
-/// A matrix, row by row.
+/// Matrix of rows.
 pub type Matrix = [Point; COORDINATES];
 
-/// Sum.
+/// Returns the sum.
 #[must_use]
 pub fn add(a: Point, b: Point) -> Point {
     std::array::from_fn(|k| a[k] + b[k])
 }
 
-/// Difference: the vector from `b` to `a`.
+/// Returns the difference: the vector from `b` to `a`.
 #[must_use]
 pub fn sub(a: Point, b: Point) -> Point {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-/// Multiple.
+/// Returns the multiple of a vector.
 #[must_use]
 pub fn scale(a: Point, by: f64) -> Point {
     a.map(|x| x * by)
 }
 
-/// Inner product.
+/// Returns the dot product.
 #[must_use]
 pub fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Outer product.
+/// Returns the cross product.
 #[must_use]
 pub fn cross(a: Point, b: Point) -> Point {
     [
@@ -40,29 +40,29 @@ pub fn cross(a: Point, b: Point) -> Point {
     ]
 }
 
-/// Distance of two points.
+/// Returns the distance of two points.
 #[must_use]
 pub fn distance(a: Point, b: Point) -> f64 {
     norm(sub(a, b))
 }
 
-/// The vector of length 1 in the direction of `a`; not a number for a zero vector.
+/// Returns the unit vector in the direction of `a`; not a number for a zero vector.
 #[must_use]
 pub fn unit(a: Point) -> Point {
     scale(a, 1.0 / norm(a))
 }
 
-/// Angle between two vectors, 0 to π.
+/// Returns the angle between two vectors, 0 to π.
 #[must_use]
 pub fn angle_between(a: Point, b: Point) -> f64 {
     norm(cross(a, b)).atan2(dot(a, b))
 }
 
-/// \[2\], \[7\]: the matrix that rotates by `angle` around the unit vector `axis`.
+/// Returns the matrix that rotates by `angle` around the unit vector `axis` (\[2\], \[7\]).
 #[must_use]
 pub fn rodrigues(axis: Point, angle: f64) -> Matrix {
     let (sin, cos) = angle.sin_cos();
-    // 1 − cos without its cancellation: steps are small.
+    // Computes 1 − cos without cancellation: steps are small.
     let half = (angle / 2.0).sin();
     let vers = 2.0 * half * half;
     let [x, y, z] = axis;
@@ -85,7 +85,7 @@ pub fn rodrigues(axis: Point, angle: f64) -> Matrix {
     ]
 }
 
-/// Product of a matrix and a vector.
+/// Returns the product of a matrix and a vector.
 #[must_use]
 pub fn apply(matrix: &Matrix, vector: Point) -> Point {
     matrix.map(|row| dot(row, vector))

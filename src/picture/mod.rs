@@ -23,7 +23,7 @@ use svg::node::element::{Rectangle, Text};
 
 /// Width of a picture in pixels.
 const WIDTH: f64 = 1000.0;
-/// Space above the first panel.
+/// Space above the first panel in pixels.
 const HEAD: f64 = 46.0;
 const FONT: &str = "Helvetica, Arial, sans-serif";
 
@@ -35,7 +35,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// A picture without panels.
+    /// Creates a picture without panels.
     pub fn new(title: impl Into<String>) -> Self {
         Picture {
             title: title.into(),
@@ -50,7 +50,7 @@ impl Picture {
         self
     }
 
-    /// The picture as the text of an SVG file; the same bytes for the same picture.
+    /// Returns the picture as SVG text; equal pictures give the same bytes.
     pub fn render(&self) -> String {
         let mut top = HEAD;
         let mut groups = Vec::new();

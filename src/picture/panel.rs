@@ -4,23 +4,23 @@ use std::ops::Range;
 use svg::node::element::path::Data;
 use svg::node::element::{Circle, Group, Line, Path, Rectangle, Text};
 
-/// Colours of curves without one of their own, told apart by colour-blind eyes too.
+/// Default colours of curves, distinguishable by colour-blind readers too.
 const COLOURS: [&str; 6] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
 ];
-/// Space around the frame of a panel: left, right, above, below.
+/// Space around the frame of a panel in pixels: left, right, above, below.
 const MARGIN: (f64, f64, f64, f64) = (80.0, 20.0, 34.0, 52.0);
-/// Height of a panel whose scales are free.
+/// Height in pixels of a panel with free scales.
 const FREE_HEIGHT: f64 = 150.0;
-/// The frame of a panel with equal scales is not higher than this.
+/// Greatest height in pixels of a panel's frame with equal scales.
 const EQUAL_HEIGHT: f64 = 760.0;
 
-/// Height of a row of the legend.
+/// Height of a row of the legend in pixels.
 const ROW: f64 = 18.0;
-/// Room of a sample and the gaps beside a name in the legend: at least, at most.
+/// Space beside a name in the legend for a sample and gaps, in pixels: least, greatest.
 const NAME_ROOM: (f64, f64) = (16.0, 44.0);
 
-/// A curve of a panel.
+/// Curve of a panel.
 #[derive(Debug, Clone)]
 pub struct Curve {
     name: String,
@@ -31,12 +31,12 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// A curve through the given points; a point that is not finite interrupts it.
+    /// Creates a curve through the given points; a point that is not finite interrupts it.
     pub fn new(name: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
         Curve::thinned(name, points.into())
     }
 
-    /// A curve through points that were thinned while they came.
+    /// Creates a curve through points that were thinned while they were collected.
     pub fn thinned(name: impl Into<String>, points: Points) -> Self {
         Curve {
             name: name.into(),
@@ -47,21 +47,21 @@ impl Curve {
         }
     }
 
-    /// With a colour of its own, as SVG writes it.
+    /// Sets the colour, in SVG notation.
     #[must_use]
     pub fn colour(mut self, colour: impl Into<String>) -> Self {
         self.colour = Some(colour.into());
         self
     }
 
-    /// With a line of this width in pixels.
+    /// Sets the line width in pixels.
     #[must_use]
     pub fn width(mut self, width: f64) -> Self {
         self.width = width;
         self
     }
 
-    /// With a dashed line.
+    /// Makes the line dashed.
     #[must_use]
     pub fn dashed(mut self) -> Self {
         self.dashes = Some("4 3");
@@ -96,7 +96,7 @@ fn text(words: &str, x: f64, y: f64) -> Text {
         .set("fill", "#333")
 }
 
-/// Pixels of a curve's name in the legend.
+/// Returns the width of a curve's name in the legend, in pixels.
 fn name_width(curve: &Curve) -> f64 {
     6.8 * curve.name.chars().count() as f64
 }
@@ -105,21 +105,21 @@ fn hundredths(pixel: f64) -> f32 {
     ((pixel * 100.0).round() / 100.0) as f32
 }
 
-/// A frame with axes, grid, legend and curves.
+/// Frame with axes, grid, legend and curves.
 #[derive(Debug, Clone)]
 pub struct Panel {
     title: String,
     x_label: String,
     y_label: String,
     equal: bool,
-    /// Without grid and numbers.
+    /// True if grid and numbers are left out.
     bare: bool,
     curves: Vec<Curve>,
     marks: Vec<((f64, f64), String)>,
 }
 
 impl Panel {
-    /// A panel without curves; labels name the quantity and its unit.
+    /// Creates a panel without curves; labels name the quantity and its unit.
     pub fn new(
         title: impl Into<String>,
         x_label: impl Into<String>,
@@ -136,21 +136,21 @@ impl Panel {
         }
     }
 
-    /// A millimetre in x is as long as a millimetre in y.
+    /// Makes a unit in x as long as a unit in y.
     #[must_use]
     pub fn equal_scales(mut self) -> Self {
         self.equal = true;
         self
     }
 
-    /// A view in which neither direction has a scale: no grid, no numbers.
+    /// Removes the scales of both axes: no grid, no numbers.
     #[must_use]
     pub fn without_scales(mut self) -> Self {
         self.bare = true;
         self
     }
 
-    /// Adds a dot with some words to its right. It does not widen the panel.
+    /// Adds a dot with a text to its right. It does not widen the panel.
     #[must_use]
     pub fn mark(mut self, at: (f64, f64), words: impl Into<String>) -> Self {
         self.marks.push((at, words.into()));
@@ -164,7 +164,7 @@ impl Panel {
         self
     }
 
-    /// The panel from `top` down, and its height.
+    /// Draws the panel from `top` down; also returns its height.
     pub(super) fn draw(&self, width: f64, top: f64) -> (Group, f64) {
         let (left, right, above, below) = MARGIN;
         let legend = self.legend_rows(width, left);
@@ -201,7 +201,7 @@ impl Panel {
                 .set("cy", hundredths(py))
                 .set("r", 3)
                 .set("fill", "#333");
-            // The words stay in the frame.
+            // Keeps the text inside the frame.
             let dy = match py - top - above < 18.0 {
                 true => 16.0,
                 false => -6.0,
@@ -227,7 +227,7 @@ impl Panel {
         })
     }
 
-    /// Title at `top`, the rest from `frame` on.
+    /// Draws the title at `top`, the rest from `frame` on.
     fn frame(&self, x: Scale, y: Scale, across: f64, down: f64, [top, frame]: [f64; 2]) -> Group {
         let left = MARGIN.0;
         let line = |x1: f64, y1: f64, x2: f64, y2: f64| {
@@ -270,12 +270,12 @@ impl Panel {
         group.add(border).add(x_label).add(y_label).add(title)
     }
 
-    /// Where the names of the curves begin, to the right of the title.
+    /// Returns the start of the curves' names, to the right of the title.
     fn legend_begin(&self, left: f64) -> f64 {
         left + 7.5 * self.title.chars().count() as f64 + 30.0
     }
 
-    /// The curves whose names stand in each row.
+    /// Divides the names of the curves into rows.
     fn legend_rows(&self, width: f64, left: f64) -> Vec<Range<usize>> {
         let begin = self.legend_begin(left);
         let (mut rows, mut at) = (Vec::<Range<usize>>::new(), begin);
@@ -292,7 +292,7 @@ impl Panel {
         rows
     }
 
-    /// The names of some curves, from left to right.
+    /// Draws the names of some curves, from left to right.
     fn legend(
         &self,
         mut group: Group,
@@ -303,7 +303,7 @@ impl Panel {
     ) -> Group {
         let mut at = self.legend_begin(left);
         let curves = &self.curves[names.clone()];
-        // Many names stand closer.
+        // Long lists of names are set closer.
         let widths: f64 = curves.iter().map(name_width).sum();
         let room = (left + across - at - widths) / curves.len().max(1) as f64;
         let room = room.clamp(NAME_ROOM.0, NAME_ROOM.1);

@@ -1,12 +1,12 @@
-/// A curve with more points is thinned to the extremes of as many intervals.
+/// Number of points above which a curve is thinned to the extremes of intervals.
 const MOST: usize = 40_000;
-/// Points that an interval keeps at most, beside its interruptions, and how many of these.
+/// Greatest number of points that an interval keeps, besides its interruptions, and of these.
 const EXTREMES: usize = 6;
 const GAPS: usize = 4;
 
-/// The points of a curve, thinned while they come: of more than 40,000 every interval keeps its
-/// first and last point, those farthest to each side, and its four widest interruptions, which
-/// looks the same.
+/// Points of a curve, thinned while they are collected. With more than 40,000, every interval
+/// keeps its first and last point, the extremes to each side, and its four widest interruptions,
+/// which looks the same.
 ///
 /// ```
 /// use motion_rtl::picture::{Curve, Points};
@@ -19,12 +19,12 @@ const GAPS: usize = 4;
 pub struct Points {
     interval: usize,
     kept: Vec<(f64, f64)>,
-    /// Those of the interval under way.
+    /// Points of the current interval.
     latest: Vec<(f64, f64)>,
 }
 
 impl Points {
-    /// None yet; there will be about so many.
+    /// Creates an empty list for about `count` points.
     pub fn expecting(count: usize) -> Self {
         Points {
             interval: match count <= MOST {
@@ -36,7 +36,7 @@ impl Points {
         }
     }
 
-    /// Adds one; a point that is not finite interrupts the curve.
+    /// Adds a point; a point that is not finite interrupts the curve.
     pub fn push(&mut self, point: (f64, f64)) {
         if self.interval == 1 {
             self.kept.push(point);
@@ -48,7 +48,7 @@ impl Points {
         }
     }
 
-    /// Those that are kept.
+    /// Returns the points that are kept.
     pub(super) fn kept(mut self) -> Vec<(f64, f64)> {
         self.thin();
         self.kept
@@ -73,7 +73,7 @@ impl Points {
                     let before = latest[before];
                     (after.0 - before.0).hypot(after.1 - before.1)
                 }
-                // At an end of the interval it is not known.
+                // The width is unknown at an end of the interval.
                 _ => f64::INFINITY,
             };
             gaps.sort_by(|a, b| width(b).total_cmp(&width(a)));
@@ -132,7 +132,7 @@ mod tests {
         assert!(order.is_sorted_by(|a, b| a.0 < b.0));
     }
 
-    /// A stroke between each pair of neighbours; one of many places where the pen goes far.
+    /// Strokes between gaps; one gap of many is wide.
     #[test]
     fn of_many_gaps_the_widest_are_kept() {
         let gap = (f64::NAN, f64::NAN);

@@ -1,15 +1,15 @@
-/// A range of data mapped to a range of pixels.
+/// Mapping of a range of data to a range of pixels.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scale {
     pub(super) least: f64,
     pub(super) most: f64,
     start: f64,
-    /// Pixels per unit of data; negative where data grows against the pixels.
+    /// Pixels per unit of data; negative if data grows against the pixels.
     factor: f64,
 }
 
 impl Scale {
-    /// Maps `least..most` to the pixels from `start` on, `length` long; negative upwards.
+    /// Maps `least..most` to `length` pixels from `start` on; a negative length points upwards.
     pub(super) fn new(least: f64, most: f64, start: f64, length: f64) -> Self {
         Scale {
             least,
@@ -23,8 +23,8 @@ impl Scale {
         self.start + (value - self.least) * self.factor
     }
 
-    /// Round numbers in the range and how they are written: 1, 2 or 5 times a power of ten apart,
-    /// about `count` of them; none where the range is too small or too large for such numbers.
+    /// Returns round numbers in the range with their labels: 1, 2 or 5 times a power of ten apart,
+    /// about `count` of them; none if the range is too small or too large for such numbers.
     pub(super) fn ticks(&self, count: f64) -> Vec<(f64, String)> {
         let raw = (self.most - self.least) / count;
         let decade = 10f64.powf(raw.log10().floor());
@@ -46,7 +46,7 @@ impl Scale {
     }
 }
 
-/// A number as short as it is exact enough for a tick of this step.
+/// Formats a number with the digits needed for a tick of this step.
 fn label(value: f64, step: f64) -> String {
     let decimals = (-step.log10().floor()).max(6.0) as usize;
     let text = format!("{value:.decimals$}");
@@ -54,7 +54,7 @@ fn label(value: f64, step: f64) -> String {
     if text == "-0" { "0" } else { text }.to_owned()
 }
 
-/// The range of some numbers, widened where it is empty, with a margin at both ends.
+/// Returns the range of some numbers, widened if it is empty, with a margin at both ends.
 pub(super) fn range(values: impl Iterator<Item = f64>, margin: f64) -> (f64, f64) {
     let (least, most) = values.filter(|value| value.is_finite()).fold(
         (f64::INFINITY, f64::NEG_INFINITY),

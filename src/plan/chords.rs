@@ -1,11 +1,11 @@
-//! An arc as chords.
+//! Approximation of arcs by chords.
 
 use super::geometry::Curve;
 use crate::input::{Drawing, Point};
 
-/// The ends of the straight pieces that stand for `drawing.moves[index]`, its own end last: for a
-/// line that alone, for an arc as many as keep every piece within `tolerance_mm` of the arc in X
-/// and Y. The drawing must have passed [`super::check`].
+/// Returns the ends of straight pieces for `drawing.moves[index]`, the last one its own end: one
+/// piece for a line; for an arc the number that keeps every piece within `tolerance_mm` of the arc
+/// in X and Y. The drawing must have passed [`super::check`].
 pub(crate) fn ends(
     drawing: &Drawing,
     index: usize,
@@ -15,8 +15,8 @@ pub(crate) fn ends(
     pieces(curve, curve.chords(tolerance_mm))
 }
 
-/// The ends of the straight pieces that stand for `drawing.moves[index]` in a picture, in mm, its
-/// own end last: of an arc `per_turn` pieces for a turn. None where there is no such move.
+/// Returns the ends of straight pieces for `drawing.moves[index]` in a picture, in mm, the last
+/// one its own end: `per_turn` pieces per turn of an arc. Empty if there is no such move.
 pub fn outline(
     drawing: &Drawing,
     index: usize,

@@ -1,11 +1,11 @@
-//! Six digits of a limit, for a message: what is said to be allowed must be.
+//! Rounding of a limit to six digits for a message, so that the value shown is allowed.
 
-/// Rounded down.
+/// Rounds down to six digits.
 pub(crate) fn round_down(value: f64) -> f64 {
     six_digits(value, f64::floor)
 }
 
-/// Rounded up; what is above six digits by the rounding of floating point alone is left out.
+/// Rounds up to six digits; ignores excess from floating-point rounding.
 pub(crate) fn round_up(value: f64) -> f64 {
     six_digits(value, |units| (units * (1.0 - 1e-12)).ceil())
 }
@@ -16,7 +16,7 @@ fn six_digits(value: f64, whole: impl Fn(f64) -> f64) -> f64 {
     }
     let unit = 10f64.powi(value.log10().floor() as i32 - 5);
     let rounded = whole(value / unit) * unit;
-    // The nearest short decimal of that.
+    // Nearest short decimal.
     format!("{rounded:.12e}").parse().unwrap_or(rounded)
 }
 

@@ -1,15 +1,15 @@
-//! The curve of one move, by its length.
+//! Curve of one move, parametrised by length.
 
 use super::{CENTRE_REACH_MM, FEED_RANGE, PlanError};
 use crate::input::{Course, Drawing, Point, REACH_MM};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// A move as a curve from its start, parametrised by a length in millimetres.
+/// Curve of a move from its start, parametrised by a length in millimetres.
 ///
-/// A line and a true arc or helix have their own length. An arc whose start and end radius differ
-/// is a spiral with the radius linear in the angle; its length is that of the outer radius, so
-/// that the speed along the spiral is never above the nominal one, and only slightly below it
-/// where the radii are meant to be equal.
+/// A line and a true arc or helix use their own length. An arc whose start and end radius differ
+/// is a spiral with the radius linear in the angle. Its length is that of the outer radius, so
+/// that the speed along the spiral is never above the nominal one, and only slightly below if the
+/// radii are meant to be equal.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Curve {
     from: Point,
@@ -28,10 +28,10 @@ struct Arc {
 }
 
 impl Curve {
-    /// The curve of `drawing.moves[index]`.
+    /// Returns the curve of `drawing.moves[index]`.
     pub(super) fn of_move(drawing: &Drawing, index: usize) -> Self {
         let from = start_of(drawing, index);
-        // A move that is none has no length.
+        // A missing move has no length.
         let step = drawing.moves.get(index);
         let (to, course) = step.map_or((from, Course::Line), |step| (step.to, step.course));
         let rise = to[2] - from[2];
@@ -56,7 +56,7 @@ impl Curve {
         }
     }
 
-    /// The point `along` millimetres from the start; exactly the start and the end at the ends.
+    /// Returns the point `along` millimetres from the start; exact at both ends.
     pub(super) fn at(&self, along: f64) -> Point {
         if along >= self.length {
             return self.to;
@@ -66,7 +66,7 @@ impl Curve {
         }
         let share = along / self.length;
         let blend = |k: usize| {
-            // From the nearer end, for the rounding to vanish at either.
+            // Computed from the nearer end, so that rounding vanishes at both.
             if share <= 0.5 {
                 self.from[k] + (self.to[k] - self.from[k]) * share
             } else {
@@ -87,7 +87,8 @@ impl Curve {
         }
     }
 
-    /// Derivative of the point by the length at the start and at the end: a vector no longer than 1.
+    /// Returns the derivative of the point by the length at the start and at the end: vectors of
+    /// length 1 at most.
     pub(super) fn directions(&self) -> [Point; 2] {
         let per_length = |v: Point| v.map(|x| x / self.length);
         let rise = self.to[2] - self.from[2];
@@ -111,8 +112,9 @@ impl Curve {
         }
     }
 
-    /// Fastest speed at which the centripetal acceleration stays within `acceleration`: √(a·R), and
-    /// on a helix, of whose speed only a part goes around, accordingly more.
+    /// Returns the greatest speed at which the centripetal acceleration stays within
+    /// `acceleration`: √(a·R), and more on a helix, since only a part of its speed is around the
+    /// axis.
     pub(super) fn fastest(&self, acceleration: f64) -> f64 {
         self.arc.as_ref().map_or(f64::INFINITY, |arc| {
             let around = arc.start_radius.max(arc.end_radius) * arc.sweep.abs();
@@ -121,14 +123,14 @@ impl Curve {
         })
     }
 
-    /// Fewest equal pieces whose chords are within `tolerance` of the curve: a chord over the angle
-    /// φ of a circle is 2·R·sin²(φ/4) from it at most, and where the radius changes by Δ over that
-    /// angle another Δ·φ/4.
+    /// Returns the least number of equal pieces whose chords are within `tolerance` of the curve.
+    /// A chord over the angle φ of a circle deviates by at most 2·R·sin²(φ/4); a change Δ of the
+    /// radius over that angle adds Δ·φ/4.
     pub(super) fn chords(&self, tolerance: f64) -> u64 {
         self.arc.as_ref().map_or(1, |arc| {
             let radius = arc.start_radius.max(arc.end_radius);
             let angle = 4.0 * (tolerance / (2.0 * radius)).sqrt().min(1.0).asin();
-            // No coarser than thirds of a circle, whose chords still enclose the centre.
+            // At least three pieces per circle, whose chords still enclose the centre.
             let angle = angle.min(std::f64::consts::TAU / 3.0);
             let sweep = arc.sweep.abs();
             let change = (arc.end_radius - arc.start_radius).abs();
@@ -137,21 +139,21 @@ impl Curve {
         })
     }
 
-    /// Equal pieces, so many for a turn; one of a line.
+    /// Returns the number of equal pieces, at `per_turn` per turn; one for a line.
     pub(super) fn pieces(&self, per_turn: u32) -> u64 {
         self.arc.as_ref().map_or(1, |arc| {
             ((arc.sweep.abs() / TAU * f64::from(per_turn)).ceil() as u64).max(1)
         })
     }
 
-    /// Lengths along an arc at which its angle is a multiple of a right one: there X or Y turns. On a
-    /// spiral, whose radius changes by little, they are near that.
+    /// Returns the lengths along an arc at which its angle is a multiple of a right angle: X or Y
+    /// reverses there. On a spiral with a small change of the radius they are near that.
     pub(super) fn quarters(&self) -> impl Iterator<Item = f64> + '_ {
         let length = self.length;
         self.arc.iter().flat_map(move |arc| {
             let [first, last] = [arc.start_angle, arc.start_angle + arc.sweep];
             let (least, most) = (first.min(last) / FRAC_PI_2, first.max(last) / FRAC_PI_2);
-            // A turn has four; more than a few turns there are not in one move.
+            // A turn has four; a single move has only a few turns.
             let quarters = (least.ceil() as i64)..=(most.floor() as i64);
             quarters.map(move |quarter| {
                 let share = (quarter as f64 * FRAC_PI_2 - first) / arc.sweep;
@@ -172,7 +174,8 @@ impl Arc {
         let cross = start[0] * end[1] - start[1] * end[0];
         let dot = start[0] * end[0] + start[1] * end[1];
         let turn = if clockwise { -TAU } else { TAU };
-        // From the vectors rather than from two angles: a short arc far round keeps its digits.
+        // From the vectors rather than from two angles: a short arc at a large angle keeps its
+        // digits.
         let between = cross.atan2(dot);
         let sweep = if start == end || between == 0.0 {
             turn
@@ -195,7 +198,7 @@ impl Arc {
     }
 }
 
-/// Where `drawing.moves[index]` starts.
+/// Returns the start of `drawing.moves[index]`.
 pub(super) fn start_of(drawing: &Drawing, index: usize) -> Point {
     let before = index.checked_sub(1);
     let end = before.and_then(|before| drawing.moves.end(before));
@@ -206,7 +209,7 @@ pub(crate) fn norm(v: Point) -> f64 {
     (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
 }
 
-/// Checks everything in the drawing that the planner computes with.
+/// Checks everything in the drawing that the planner uses.
 pub(crate) fn check(drawing: &Drawing) -> Result<(), PlanError> {
     check_point(0, drawing.start)?;
     for (index, step) in drawing.moves.iter().enumerate() {

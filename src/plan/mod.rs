@@ -1,12 +1,12 @@
-//! Path planning: a [`Drawing`](crate::input::Drawing) as a position in time.
+//! Path planning: converts a [`Drawing`](crate::input::Drawing) into a position over time.
 //!
-//! A [`Plan`] gives every move a trapezoid of speed along the path, looking ahead over all moves:
-//! no faster than the feed (or the rapid rate), than the centripetal limit on arcs and than the
-//! corner speed at junctions, at rest at both ends, and with a bounded tangential acceleration.
-//! A [`Sampler`] then gives the position at any time.
+//! A [`Plan`] gives every move a trapezoidal speed profile along the path, with look-ahead over
+//! all moves. The speed is limited by the feed (or the rapid rate), the centripetal limit on arcs,
+//! and the corner speed at junctions; it is zero at both ends, and the tangential acceleration is
+//! bounded. A [`Sampler`] then returns the position at any time.
 //!
-//! The tangential and the centripetal acceleration are limited one by one, so that their sum on an
-//! arc taken at its limit while braking may reach √2 times the setting.
+//! Tangential and centripetal acceleration are limited separately, so their sum while braking on
+//! an arc at its limit may reach √2 times the setting.
 
 pub(crate) mod chords;
 pub(crate) mod digits;
@@ -25,26 +25,26 @@ pub use sampler::{Sample, Sampler};
 use crate::input::REACH_MM;
 use crate::settings::{SettingError, tidy, within};
 
-/// Slowest and fastest feed that is accepted, in mm/min.
+/// Allowed feed in mm/min.
 pub const FEED_RANGE: std::ops::RangeInclusive<f64> = 1e-3..=1e7;
 
-/// Smallest and largest acceleration that is accepted, in mm/s².
+/// Allowed acceleration in mm/s².
 pub const ACCELERATION_RANGE: std::ops::RangeInclusive<f64> = 1e-3..=1e9;
 
-/// Farthest centre of an arc that is accepted, in millimetres on either side of zero.
+/// Greatest absolute value of an arc centre's coordinate, in millimetres.
 pub const CENTRE_REACH_MM: f64 = 1e3 * REACH_MM;
 
-/// How fast a path may be travelled.
+/// Limits of the motion along a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionLimits {
-    /// Feed of the moves that set none, in mm/min.
+    /// Feed of moves that set none, in mm/min.
     pub feed_mm_per_min: f64,
     /// Speed of rapid moves, in mm/min.
     pub rapid_mm_per_min: f64,
-    /// Largest sudden change of the velocity vector at a junction, in mm/min; 0 stops at every
+    /// Greatest sudden change of the velocity vector at a junction, in mm/min; 0 stops at every
     /// corner.
     pub corner_mm_per_min: f64,
-    /// Largest tangential and largest centripetal acceleration, in mm/s².
+    /// Greatest tangential and greatest centripetal acceleration, in mm/s².
     pub acceleration_mm_per_s2: f64,
 }
 
@@ -64,7 +64,7 @@ impl MotionLimits {
     ///
     /// # Errors
     ///
-    /// Names the first that is outside its range or not a number.
+    /// Returns an error that names the first limit outside its range or not a number.
     pub fn validate(&self) -> Result<(), SettingError> {
         let corners = 0.0..=*FEED_RANGE.end();
         let limits = [
@@ -83,7 +83,7 @@ impl MotionLimits {
     }
 }
 
-/// A path that cannot be planned.
+/// Reason why a path cannot be planned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlanError {
     /// A limit is outside its range.
@@ -99,7 +99,7 @@ pub enum PlanError {
     Feed {
         /// Line of the input.
         line: usize,
-        /// The feed in mm/min.
+        /// Feed in mm/min.
         value: f64,
     },
     /// A coordinate is not a number or out of reach. Line 0 is the start of the drawing.
@@ -107,11 +107,11 @@ pub enum PlanError {
     Coordinate {
         /// Line of the input.
         line: usize,
-        /// Which coordinate: "X", "Y", "Z", "centre X" or "centre Y".
+        /// Name: "X", "Y", "Z", "centre X" or "centre Y".
         coordinate: &'static str,
-        /// Its value in millimetres.
+        /// Value in millimetres.
         value: f64,
-        /// Farthest value allowed.
+        /// Greatest absolute value allowed, in millimetres.
         reach: f64,
     },
     /// A move is on a spline.
@@ -125,7 +125,7 @@ pub enum PlanError {
     Radius {
         /// Line of the input.
         line: usize,
-        /// The smaller of the radii at the start and at the end, in millimetres.
+        /// Smaller of the radii at the start and at the end, in millimetres.
         radius_mm: f64,
     },
 }

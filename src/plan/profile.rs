@@ -1,4 +1,4 @@
-//! Look-ahead: the speed at every junction and the trapezoid of every move.
+//! Look-ahead: speed at every junction, and speed profile of every move.
 
 use super::geometry::{self, Curve};
 use super::sampler::Sampler;
@@ -6,31 +6,31 @@ use super::{MotionLimits, PlanError};
 use crate::input::{Drawing, Move, Point};
 use crate::path::vector::distance;
 
-/// Directions that differ by no more than this (in radians) are taken for the same: a tangent
-/// computed from rounded coordinates must not stop a machine whose corner speed is 0.
+/// Greatest difference of directions, in radians, that counts as tangential: a tangent computed
+/// from rounded coordinates must not stop a machine whose corner speed is 0.
 const TANGENT: f64 = 1e-6;
 
-/// One move that has a length, with its speeds.
+/// Move that has a length, with its speeds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
     /// Index into the drawing's moves.
     pub index: usize,
-    /// Time it starts at, in seconds.
+    /// Start time in seconds.
     pub start_s: f64,
     /// Length of the path before it, in millimetres.
     pub start_mm: f64,
-    /// Its own length in millimetres.
+    /// Own length in millimetres.
     pub length_mm: f64,
-    /// Speed at its start, in mm/s.
+    /// Speed at the start, in mm/s.
     pub entry: f64,
-    /// Highest speed on it, in mm/s.
+    /// Greatest speed, in mm/s.
     pub peak: f64,
-    /// Speed at its end, in mm/s.
+    /// Speed at the end, in mm/s.
     pub exit: f64,
 }
 
-/// What is kept of a segment: its length is that of the move, its speed at the end that of the next
-/// at the start.
+/// Stored part of a segment: its length is that of the move, its exit speed the entry speed of the
+/// next segment.
 #[derive(Debug, Clone, Copy)]
 struct Packed {
     index: usize,
@@ -40,7 +40,7 @@ struct Packed {
     peak: f64,
 }
 
-/// A segment's trapezoid: lengths and times of its three phases.
+/// Speed profile of a segment: lengths and times of its three phases.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Phases {
     pub(super) rising_mm: f64,
@@ -52,7 +52,7 @@ pub(super) struct Phases {
 
 impl Segment {
     pub(super) fn phases(&self, acceleration: f64) -> Phases {
-        // Kept inside the length: the speeds come out of roots and may be off by a rounding.
+        // Limited to the length: the speeds are square roots and may be off by rounding.
         let ramp = |end: f64, room: f64| {
             ((self.peak - end) * (self.peak + end) / (2.0 * acceleration)).clamp(0.0, room)
         };
@@ -69,7 +69,7 @@ impl Segment {
     }
 }
 
-/// A drawing with its timing.
+/// Drawing with its timing.
 #[derive(Debug, Clone)]
 pub struct Plan<'d> {
     pub(super) drawing: &'d Drawing,
@@ -80,11 +80,11 @@ pub struct Plan<'d> {
 }
 
 impl<'d> Plan<'d> {
-    /// Plans the drawing. Moves without length take no time and no part.
+    /// Plans the drawing. Moves without length take no time and have no segment.
     ///
     /// # Errors
     ///
-    /// [`PlanError`] where a limit or the drawing holds a value that cannot be planned with.
+    /// Returns a [`PlanError`] if a limit or the drawing contains a value that cannot be planned.
     pub fn new(drawing: &'d Drawing, limits: &MotionLimits) -> Result<Self, PlanError> {
         limits.validate()?;
         geometry::check(drawing)?;
@@ -108,48 +108,48 @@ impl<'d> Plan<'d> {
         })
     }
 
-    /// Number of the moves that have a length.
+    /// Returns the number of moves that have a length.
     pub(super) fn count(&self) -> usize {
         self.segments.len()
     }
 
-    /// A move that has a length, and its curve.
+    /// Returns a segment and its curve.
     pub(super) fn segment(&self, number: usize) -> (Segment, Curve) {
         let curve = Curve::of_move(self.drawing, self.segments[number].index);
         (unpacked(&self.segments, number, curve.length), curve)
     }
 
-    /// The last segment that has begun at a time; the first before all.
+    /// Returns the last segment that has begun at a time; the first one before its start.
     pub(super) fn under_way(&self, time_s: f64) -> usize {
         let begun = self.segments.partition_point(|s| s.start_s <= time_s);
         begun.saturating_sub(1)
     }
 
-    /// Time from start to end, in seconds.
+    /// Returns the time from start to end, in seconds.
     #[must_use]
     pub fn duration_s(&self) -> f64 {
         self.duration_s
     }
 
-    /// Length of the path in millimetres.
+    /// Returns the length of the path in millimetres.
     #[must_use]
     pub fn length_mm(&self) -> f64 {
         self.length_mm
     }
 
-    /// The moves that have a length, in order.
+    /// Returns the moves that have a length, in order.
     #[must_use]
     pub fn segments(&self) -> impl ExactSizeIterator<Item = Segment> {
         (0..self.count()).map(|number| self.segment(number).0)
     }
 
-    /// Where the path starts.
+    /// Returns the start of the path.
     #[must_use]
     pub fn start(&self) -> Point {
         self.drawing.start
     }
 
-    /// Where the path ends.
+    /// Returns the end of the path.
     #[must_use]
     pub fn end(&self) -> Point {
         self.drawing
@@ -158,13 +158,13 @@ impl<'d> Plan<'d> {
             .map_or(self.drawing.start, |m| m.to)
     }
 
-    /// The position in time, from the start.
+    /// Returns a sampler of the position over time.
     #[must_use]
     pub fn sampler(&self) -> Sampler<'_, 'd> {
         Sampler::new(self)
     }
 
-    /// When a segment ends, in seconds.
+    /// Returns the end time of a segment, in seconds.
     pub(super) fn end_s(&self, segment: usize) -> f64 {
         self.segments
             .get(segment + 1)
@@ -172,7 +172,7 @@ impl<'d> Plan<'d> {
     }
 }
 
-/// A segment of this length.
+/// Returns a segment of this length.
 fn unpacked(segments: &[Packed], number: usize, length_mm: f64) -> Segment {
     let Packed {
         index,
@@ -192,8 +192,8 @@ fn unpacked(segments: &[Packed], number: usize, length_mm: f64) -> Segment {
     }
 }
 
-/// The segments with the highest speed each allows by itself as peak and with the highest speed
-/// each junction allows by itself as entry, and their lengths in mm.
+/// Returns the segments with the greatest speed that each allows by itself as peak, and the
+/// greatest speed that each junction allows by itself as entry; also their lengths in mm.
 fn limit_speeds(drawing: &Drawing, limits: &MotionLimits) -> (Vec<Packed>, Vec<f64>) {
     let corner = limits.corner_mm_per_min / 60.0;
     let count = drawing.moves.len();
@@ -224,7 +224,8 @@ fn limit_speeds(drawing: &Drawing, limits: &MotionLimits) -> (Vec<Packed>, Vec<f
     (segments, lengths)
 }
 
-/// The speed at which the velocity changes by `corner` between two directions that are so far apart.
+/// Returns the speed at which the velocity changes by `corner` at a junction; `turn` is the
+/// difference of its unit directions.
 pub(crate) fn junction(turn: f64, corner: f64) -> f64 {
     match turn <= TANGENT {
         true => f64::INFINITY,
@@ -232,7 +233,7 @@ pub(crate) fn junction(turn: f64, corner: f64) -> f64 {
     }
 }
 
-/// Feed or rapid rate of a move, in mm/s.
+/// Returns feed or rapid rate of a move, in mm/s.
 fn nominal_speed(step: &Move, limits: &MotionLimits) -> f64 {
     let per_minute = if step.rapid {
         limits.rapid_mm_per_min
@@ -242,8 +243,8 @@ fn nominal_speed(step: &Move, limits: &MotionLimits) -> f64 {
     per_minute / 60.0
 }
 
-/// Lowers the junction speeds until each can be reached from the one before and left for the one
-/// after, then the peaks to what the lengths allow.
+/// Lowers the junction speeds until each can be reached from the one before and braked to the
+/// next, then the peaks to the speeds that the lengths allow.
 fn look_ahead(segments: &mut [Packed], lengths: &[f64], acceleration: f64) {
     let gain = |length_mm: f64| 2.0 * acceleration * length_mm;
     let mut exit = 0f64;
@@ -264,7 +265,7 @@ fn look_ahead(segments: &mut [Packed], lengths: &[f64], acceleration: f64) {
     }
 }
 
-/// Compensated sum (Neumaier): a million tiny times after a huge one are not lost.
+/// Compensated sum (Neumaier): many tiny times after a huge one are not lost.
 #[derive(Default)]
 struct Sum {
     sum: f64,

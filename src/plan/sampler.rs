@@ -1,39 +1,38 @@
-//! The position at a time.
+//! Position at a time.
 
 use super::geometry::Curve;
 use super::profile::{Phases, Plan, Segment};
 use crate::input::Point;
 
-/// Where the tool is at a time.
+/// State of the tool at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
     /// Position in millimetres.
     pub position: Point,
     /// Speed along the path in mm/s.
     pub speed: f64,
-    /// Path travelled, in millimetres.
+    /// Distance travelled along the path, in millimetres.
     pub travelled_mm: f64,
-    /// Whether the move under way is an arc; at a junction the move that begins.
+    /// True if the current move is an arc; at a junction the move that begins counts.
     pub arc: bool,
-    /// Whether that move is a rapid one.
+    /// True if the current move is a rapid one.
     pub rapid: bool,
-    /// Line of the input that move stands in; 0 where the path has no length.
+    /// Line of the current move in the input; 0 if the path has no length.
     pub line: usize,
-    /// Which of the drawing's moves it is.
+    /// Index of the current move in the drawing.
     pub index: usize,
 }
 
-/// Gives the position of a [`Plan`] in time.
+/// Sampler of a [`Plan`]'s position over time.
 ///
-/// Times that do not decrease cost O(1) each, amortised over the segments passed; going back costs
-/// a binary search.
+/// Times that do not decrease cost amortised O(1) each; an earlier time costs a binary search.
 #[derive(Debug, Clone)]
 pub struct Sampler<'p, 'd> {
     plan: &'p Plan<'d>,
     current: Option<Current>,
 }
 
-/// The segment under way, worked out once.
+/// Current segment with its curve and phases.
 #[derive(Debug, Clone, Copy)]
 struct Current {
     /// Index into the plan's segments.
@@ -51,8 +50,8 @@ impl<'p, 'd> Sampler<'p, 'd> {
         Self { plan, current }
     }
 
-    /// The sample at `time_s` seconds; the start before 0 and exactly the end from the plan's
-    /// duration on.
+    /// Returns the sample at `time_s` seconds: the start before 0, and exactly the end from the
+    /// plan's duration on.
     pub fn at(&mut self, time_s: f64) -> Sample {
         let Some(current) = &mut self.current else {
             return Sample {
@@ -81,9 +80,9 @@ impl<'p, 'd> Sampler<'p, 'd> {
 }
 
 impl Sampler<'_, '_> {
-    /// Puts the times within a span at which a coordinate may stop or turn into `turns`: between
-    /// them every coordinate goes one way only. They are the joints of the moves, and on arcs where
-    /// the angle is a multiple of a right one.
+    /// Stores in `turns` the times within a span at which a coordinate may stop or reverse:
+    /// between them every coordinate is monotonic. They are the junctions of the moves and, on
+    /// arcs, the points at multiples of a right angle.
     pub(crate) fn turns(&mut self, [from_s, to_s]: [f64; 2], turns: &mut Vec<f64>) {
         turns.clear();
         self.at(from_s);
@@ -112,7 +111,7 @@ impl Sampler<'_, '_> {
 }
 
 impl Current {
-    /// Seconds into the segment at which it is so many millimetres along.
+    /// Returns the seconds into the segment at which it has advanced by a length in millimetres.
     fn time_at(&self, along: f64, acceleration: f64) -> f64 {
         let Segment {
             length_mm,
@@ -170,8 +169,8 @@ impl Current {
         }
     }
 
-    /// Length and speed `time` seconds into the segment. Each phase is held within its own length,
-    /// so that rounding cannot make the path go back.
+    /// Returns length and speed `time` seconds into the segment. Each phase is limited to its own
+    /// length, so that rounding cannot reverse the path.
     fn advance(&self, time: f64, acceleration: f64) -> (f64, f64) {
         let Segment {
             length_mm,

@@ -32,7 +32,7 @@ fn drawing(start: Point, moves: Vec<Move>) -> Drawing {
     }
 }
 
-/// 10 mm/s feed, 50 mm/s rapid, 100 mm/s², stop at corners.
+/// Feed 10 mm/s, rapid 50 mm/s, 100 mm/s², stop at corners.
 const LIMITS: MotionLimits = MotionLimits {
     feed_mm_per_min: 600.0,
     rapid_mm_per_min: 3000.0,
@@ -60,7 +60,7 @@ fn single_line_takes_length_by_feed_plus_one_ramp() {
     assert!(close(plan.duration_s(), 50.0 / 10.0 + 10.0 / 100.0));
     let mut sampler = plan.sampler();
     assert_eq!(sampler.at(0.0).position, [1.0, 2.0, 3.0]);
-    // Half a ramp in: a·t²/2 along the direction (0, 0.8, 0.6).
+    // Half a ramp: a·t²/2 along the direction (0, 0.8, 0.6).
     let early = sampler.at(0.05);
     assert!(close(early.speed, 5.0) && close(early.travelled_mm, 0.125));
     assert!(distance(early.position, [1.0, 2.1, 3.075]) < 1e-12);
@@ -104,7 +104,7 @@ fn circle_runs_at_the_feed_or_at_the_centripetal_limit() {
 
 #[test]
 fn arcs_turn_the_way_they_say_and_as_far() {
-    // From (2, 0) about the origin: end, clockwise, turn, and the point half way.
+    // From (2, 0) about the origin: end, clockwise, turn, and the point halfway.
     let diagonal = 2.0_f64.sqrt();
     let cases = [
         ([0.0, 2.0], false, TAU / 4.0, [diagonal, diagonal]),
@@ -321,7 +321,7 @@ fn the_outline_of_an_arc_that_is_almost_closed_goes_nearly_all_around() {
             let around: f64 = (1..180).map(way).sum();
             let chord = 20.0 * (PI / 180.0).sin();
             assert!((around - 179.0 * chord).abs() < 2.0 * gap, "{around}");
-            // The first quarter lies on the side that the turn goes to.
+            // The first quarter is on the side to which the arc turns.
             assert_eq!(points[44][1] < 0.0, clockwise);
         }
     }

@@ -1,23 +1,23 @@
-//! An absolute encoder of a turn, with a sampling clock of its own.
+//! Absolute encoder of one turn, with its own sampling clock.
 
-/// Gives the place in the turn as a Gray word, sampled by its own clock.
+/// Encoder that outputs the position within the turn as a Gray word, sampled by its own clock.
 ///
-/// A turn of T counts has the T words in the middle of the code. The strobe is high for the first half
-/// of each of its periods, and the word stands from one rise to the next.
+/// A turn of T counts uses the T words in the middle of the code. The strobe is high for the first
+/// half of each period, and the word is constant from one rising edge to the next.
 #[derive(Debug, Clone, Copy)]
 pub struct AbsoluteEncoder {
     counts: i64,
     first: i64,
     period_ticks: f64,
-    /// Ticks that have gone, and the samples that were taken.
+    /// Number of ticks so far, and number of samples taken.
     ticks: u64,
     samples: u64,
     word: u64,
 }
 
 impl AbsoluteEncoder {
-    /// An encoder of `counts` to a turn with words of `bits`, which samples once in so many ticks of
-    /// the reference clock.
+    /// Creates an encoder of `counts` per turn with words of `bits`, which samples once in
+    /// `period_ticks` ticks of the reference clock.
     #[must_use]
     pub fn new(counts: u32, bits: usize, period_ticks: f64) -> Self {
         let counts = i64::from(counts);
@@ -31,7 +31,7 @@ impl AbsoluteEncoder {
         }
     }
 
-    /// One tick, with the body at a position in counts: the strobe and the word.
+    /// Advances one tick with the body at a position in counts; returns strobe and word.
     #[inline]
     pub fn step(&mut self, position_counts: f64) -> (bool, u64) {
         let now = self.ticks as f64;
@@ -67,7 +67,7 @@ mod tests {
         assert_eq!(all.len(), 90);
     }
 
-    /// A period is ten ticks and eleven in turn, the strobe high for half of it.
+    /// A period is ten and eleven ticks in turn, with the strobe high for half of it.
     #[test]
     fn it_samples_by_its_own_clock() {
         let mut encoder = AbsoluteEncoder::new(1000, 10, 10.5);

@@ -1,29 +1,29 @@
-//! Plants that go ahead of the circuit, for as long as it leaves them alone.
+//! Plants that are simulated ahead of the circuit while the circuit does not change their inputs.
 
-/// The most ticks that plants go ahead.
+/// Greatest number of ticks that plants run ahead.
 const MOST: u64 = 256;
 
-/// What moves, and can be put back to where it was.
+/// Plant whose state can be saved and restored.
 pub trait Plant {
-    /// All of it that changes.
+    /// State of the plant.
     type State;
 
-    /// Its state.
+    /// Returns the state.
     fn state(&self) -> Self::State;
 
-    /// Puts it into a state.
+    /// Restores a state.
     fn set_state(&mut self, state: &Self::State);
 }
 
-/// Plants that go ahead together.
+/// Plants that run ahead together.
 pub trait Plants {
-    /// What of one of them changes, or of all.
+    /// State of one plant, or of all.
     type State;
 
-    /// Writes their states behind others: always as many.
+    /// Appends the states; their number is always the same.
     fn save(&self, states: &mut Vec<Self::State>);
 
-    /// Puts them into states that they have written.
+    /// Restores states that [`save`](Self::save) has written.
     fn restore(&mut self, states: &[Self::State]);
 }
 
@@ -45,18 +45,18 @@ impl<P: Plant, const N: usize> Plants for [P; N] {
     }
 }
 
-/// Plants, stepped once a tick, and what they give: the levels of their encoders' channels.
+/// Plants, stepped once per tick, with their outputs: the levels of their encoders' channels.
 #[derive(Debug, Clone)]
 pub struct Ahead<P: Plants, S> {
-    /// The plants, in the tick that they were stepped to last.
+    /// Plants in the tick to which they were stepped last.
     pub plants: P,
     given: Option<S>,
-    /// The states from that tick on, as far as they are tried.
+    /// States from that tick on, as far as the plants ran ahead.
     states: Vec<P::State>,
 }
 
 impl<P: Plants, S: Copy + PartialEq> Ahead<P, S> {
-    /// Plants before their first tick.
+    /// Creates the plants before their first tick.
     pub fn new(plants: P) -> Self {
         Ahead {
             plants,
@@ -65,7 +65,7 @@ impl<P: Plants, S: Copy + PartialEq> Ahead<P, S> {
         }
     }
 
-    /// What they give in the tick to come, to which `step` steps them.
+    /// Returns the outputs in the next tick, to which `step` steps the plants.
     #[inline]
     pub fn step(&mut self, step: impl FnOnce(&mut P) -> S) -> S {
         let given = step(&mut self.plants);
@@ -73,10 +73,10 @@ impl<P: Plants, S: Copy + PartialEq> Ahead<P, S> {
         given
     }
 
-    /// Goes on together with the circuit, by at most so many ticks, for as long as they give what
-    /// they gave last and the circuit drives them as it did: `step` steps them, and `circuit` goes on
-    /// by at most so many ticks and says by how many. They are then in the tick before the one that
-    /// it has come to.
+    /// Advances together with the circuit by at most `most` ticks, while the plants' outputs stay
+    /// the same and the circuit drives them as before. `step` steps the plants; `circuit` advances
+    /// by at most the given number of ticks and returns the number. The plants are then in the
+    /// tick before the one that the circuit has reached.
     #[inline]
     pub fn go_on(
         &mut self,
@@ -89,7 +89,7 @@ impl<P: Plants, S: Copy + PartialEq> Ahead<P, S> {
         let each = self.states.len();
         let most = most.clamp(1, MOST);
         let mut tried = 1;
-        // In the tick in which they give something else the circuit may drive them otherwise.
+        // In the tick in which the outputs change, the circuit may drive the plants differently.
         while tried < most && self.given == Some(step(&mut self.plants)) {
             self.plants.save(&mut self.states);
             tried += 1;
@@ -107,7 +107,7 @@ impl<P: Plants, S: Copy + PartialEq> Ahead<P, S> {
 mod tests {
     use super::*;
 
-    /// Gives a third of how often it was stepped.
+    /// Outputs a third of the number of steps.
     struct Thirds(u64);
 
     impl Plants for Thirds {
@@ -129,7 +129,7 @@ mod tests {
 
     #[test]
     fn what_is_stepped_ahead_is_given_in_its_tick() {
-        // Up to how many ticks, and after how many the circuit stops.
+        // Greatest number of ticks, and number of ticks after which the circuit stops.
         let cases = [
             (1, 9),
             (5, 9),
@@ -147,7 +147,7 @@ mod tests {
         let mut tick = 0;
         for (most, stops) in cases {
             assert_eq!(plant.step(step), (tick + 1) / 3, "tick {tick}");
-            // What is seen of it is of this tick.
+            // Its visible state belongs to this tick.
             assert_eq!(plant.plants.0, tick + 1, "tick {tick}");
             let mut gone = 0;
             plant.go_on(most, step, |ticks| {
@@ -166,7 +166,7 @@ mod tests {
         let mut plant = Ahead::new(Thirds(0));
         plant.step(step);
         plant.go_on(9, step, |ticks| ticks);
-        // The circuit drives it otherwise from this tick on.
+        // The circuit drives it differently from this tick on.
         let given = plant.step(|plant| {
             plant.0 += 10;
             plant.0

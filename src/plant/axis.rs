@@ -1,4 +1,4 @@
-//! Driver, motor and encoder of one axis together.
+//! Driver, motor and encoder of one axis.
 
 use super::parameters::check_tick;
 use super::servo::MotorState;
@@ -14,16 +14,16 @@ pub struct ServoAxis {
     counts_per_rad: f64,
     tick_s: f64,
     torque_nm: f64,
-    /// The word, its full scale, and the speed in rad/s that they ask for.
+    /// Word, full scale, and the speed in rad/s that they request.
     asked: (i64, i64, f64),
 }
 
 impl ServoAxis {
-    /// An axis at rest at position 0, on a reference tick of `tick_s` seconds.
+    /// Creates an axis at rest at position 0, on a reference tick of `tick_s` seconds.
     ///
     /// # Errors
     ///
-    /// [`SettingError`] names the parameter, or `tick_s`, that is out of range.
+    /// Returns a [`SettingError`] that names the parameter, or `tick_s`, that is out of range.
     pub fn new(parameters: &ServoParameters, tick_s: f64) -> Result<Self, SettingError> {
         parameters.validate()?;
         check_tick(tick_s)?;
@@ -38,12 +38,12 @@ impl ServoAxis {
         })
     }
 
-    /// One tick under the word `reference` of the D/A converter, whose greatest is `full_scale`
-    /// and asks for rated speed; a full scale below 1 counts as 1. Gives the encoder's channels
-    /// A and B of the tick to come.
+    /// Advances one tick under the D/A word `reference`; `full_scale` is the greatest word and
+    /// requests rated speed, values below 1 count as 1. Returns the encoder's channels A and B of
+    /// the next tick.
     #[inline]
     pub fn step(&mut self, reference: i64, full_scale: i64) -> (bool, bool) {
-        // It stands for many ticks, and a division takes as long as all the rest.
+        // The word is constant for many ticks, and a division takes as long as everything else.
         if (self.asked.0, self.asked.1) != (reference, full_scale) {
             let fraction = reference as f64 / full_scale.max(1) as f64;
             let wanted = self.driver.wanted_rad_per_s(fraction);
@@ -55,31 +55,31 @@ impl ServoAxis {
         self.encoder.see(self.motor.position_counts())
     }
 
-    /// The encoder's channels A and B as they stand.
+    /// Returns the current levels of the encoder's channels A and B.
     #[inline]
     pub fn channels(&self) -> (bool, bool) {
         self.encoder.channels(self.motor.position_counts())
     }
 
-    /// Position in encoder counts.
+    /// Returns the position in encoder counts.
     #[inline]
     pub fn position_counts(&self) -> f64 {
         self.motor.position_counts()
     }
 
-    /// Speed in encoder counts a second.
+    /// Returns the speed in encoder counts per second.
     #[inline]
     pub fn speed_counts_per_s(&self) -> f64 {
         self.motor.speed_rad_per_s() * self.counts_per_rad
     }
 
-    /// The driver's torque of the last tick, in N·m.
+    /// Returns the driver's torque in the last tick, in N·m.
     #[inline]
     pub fn torque_nm(&self) -> f64 {
         self.torque_nm
     }
 
-    /// The highest speed in counts a second at which every quarter is seen.
+    /// Returns the greatest speed in counts per second at which every quarter is sampled.
     pub fn countable_counts_per_s(&self) -> f64 {
         self.encoder.countable_counts_per_s(self.tick_s)
     }

@@ -1,8 +1,8 @@
-//! A moving body with a motor drive, a brake and an encoder: what a lead-angle compensator stops.
+//! Moving body with a motor drive, a brake and an encoder, which a lead-angle compensator stops.
 //!
-//! Acceleration is constant between events (the speed is reached, the brake bites, the body rests),
-//! so the motion between them is a parabola. A tick is split at its events and integrated without
-//! error.
+//! Acceleration is constant between events (the speed is reached, the brake engages, the body
+//! comes to rest), so the motion between them is a parabola. A tick is split at its events and
+//! integrated exactly.
 
 mod parameters;
 #[cfg(test)]
@@ -14,7 +14,7 @@ use super::parameters::check_tick;
 use super::{Encoder, Plant};
 use crate::settings::SettingError;
 
-/// Motor drive, body, brake and encoder together, stepped once per reference tick.
+/// Motor drive, body, brake and encoder, stepped once per reference tick.
 #[derive(Debug, Clone)]
 pub struct BrakedBody {
     parameters: BodyParameters,
@@ -23,17 +23,17 @@ pub struct BrakedBody {
     load: Load,
     position_counts: f64,
     speed_counts_per_s: f64,
-    /// How long the control signal of the brake has stood.
+    /// Time for which the brake's control signal has been constant, in seconds.
     signal_s: f64,
     engaged: bool,
-    /// The brake has rubbed since it was last released.
+    /// True if the brake has slipped since its last release.
     rubbed: bool,
     brakings: u32,
-    /// What these have left of the brake's torque, as a part.
+    /// Remaining part of the brake's torque.
     left: f64,
 }
 
-/// What of a body changes, its load aside.
+/// State of a body, without its load.
 #[derive(Debug, Clone, Copy)]
 pub struct BodyState {
     position_counts: f64,
@@ -74,11 +74,12 @@ impl Plant for BrakedBody {
 }
 
 impl BrakedBody {
-    /// A body at rest at position 0 with a new brake, on a reference tick of `tick_s` seconds.
+    /// Creates a body at rest at position 0 with a new brake, on a reference tick of `tick_s`
+    /// seconds.
     ///
     /// # Errors
     ///
-    /// [`SettingError`] names the parameter, or `tick_s`, that is out of range.
+    /// Returns a [`SettingError`] that names the parameter, or `tick_s`, that is out of range.
     pub fn new(parameters: &BodyParameters, tick_s: f64) -> Result<Self, SettingError> {
         parameters.validate()?;
         check_tick(tick_s)?;
@@ -97,20 +98,20 @@ impl BrakedBody {
         })
     }
 
-    /// Changes what the body carries, from the next tick on.
+    /// Changes the load, from the next tick on.
     ///
     /// # Errors
     ///
-    /// [`SettingError`] names the factor that is out of range.
+    /// Returns a [`SettingError`] that names the factor that is out of range.
     pub fn set_load(&mut self, load: Load) -> Result<(), SettingError> {
         load.validate()?;
         self.load = load;
         Ok(())
     }
 
-    /// One tick: the motor is on or off (`drive`), towards smaller counts (`reverse`), with this
-    /// speed as its reference; `brake` is the control signal of the brake. An engaged brake beats
-    /// the motor. Gives the encoder's channels A and B of the tick to come.
+    /// Advances one tick. The motor is on or off (`drive`), towards smaller counts (`reverse`),
+    /// with this speed as its reference; `brake` is the control signal of the brake. An engaged
+    /// brake overrides the motor. Returns the encoder's channels A and B of the next tick.
     #[inline]
     pub fn step(
         &mut self,
@@ -146,37 +147,37 @@ impl BrakedBody {
         self.encoder.see(self.position_counts)
     }
 
-    /// The encoder's channels A and B as they stand.
+    /// Returns the current levels of the encoder's channels A and B.
     #[inline]
     pub fn channels(&self) -> (bool, bool) {
         self.encoder.channels(self.position_counts)
     }
 
-    /// Position in encoder counts.
+    /// Returns the position in encoder counts.
     #[inline]
     pub fn position_counts(&self) -> f64 {
         self.position_counts
     }
 
-    /// Speed in encoder counts a second.
+    /// Returns the speed in encoder counts per second.
     #[inline]
     pub fn speed_counts_per_s(&self) -> f64 {
         self.speed_counts_per_s
     }
 
-    /// The brake is on: its signal has stood for the dead time.
+    /// True if the brake is engaged: its signal has been high for the dead time.
     #[inline]
     pub fn engaged(&self) -> bool {
         self.engaged
     }
 
-    /// Brakings that are over: releases of a brake that has rubbed.
+    /// Returns the number of completed brakings: releases of a brake that has slipped.
     #[inline]
     pub fn brakings(&self) -> u32 {
         self.brakings
     }
 
-    /// Friction torque of the bearings and, where it is engaged, of the brake, in N·m.
+    /// Returns the friction torque of the bearings and of an engaged brake, in N·m.
     #[inline]
     pub fn friction_nm(&self) -> f64 {
         let bearings = self.parameters.friction_nm * self.load.load_friction_factor;
@@ -186,13 +187,13 @@ impl BrakedBody {
         }
     }
 
-    /// Friction torque of the brake under this load and at its age, in N·m.
+    /// Returns the friction torque of the brake under this load and at its age, in N·m.
     #[inline]
     pub fn brake_torque_nm(&self) -> f64 {
         self.parameters.brake_torque_nm * self.load.load_brake_factor * self.left
     }
 
-    /// What friction takes off the speed, in counts/s².
+    /// Returns the deceleration by friction, in counts/s².
     #[inline]
     fn deceleration(&self) -> f64 {
         let inertia = self.parameters.inertia_kg_m2 * self.load.load_inertia_factor;

@@ -1,12 +1,12 @@
 //! Pulse generator 4: an incremental encoder.
 
-/// Pulse generator 4: the levels of channels A and B at a position.
+/// Pulse generator 4: levels of channels A and B at a position.
 ///
-/// Quarter k of the encoder's period reaches from k − ½ to k + ½ counts, so a motor at rest on a
-/// whole count stands in the middle of a quarter. A leads where the position goes up.
+/// Quarter k of the encoder's period extends from k − ½ to k + ½ counts, so a motor at rest on a
+/// whole count is in the middle of a quarter. A leads in the direction of rising positions.
 #[derive(Debug, Clone, Copy)]
 pub struct Encoder {
-    /// The quarter that was seen last: where it begins and ends, in counts, and its levels.
+    /// Last quarter: its begin and end in counts, and its levels.
     quarter: [f64; 2],
     levels: (bool, bool),
 }
@@ -21,13 +21,13 @@ impl Default for Encoder {
 }
 
 impl Encoder {
-    /// Channels A and B at a position in counts.
+    /// Returns channels A and B at a position in counts.
     #[inline]
     pub fn channels(&self, position_counts: f64) -> (bool, bool) {
         levels(quarter(position_counts))
     }
 
-    /// The same, which remembers the quarter: most ticks stay in it.
+    /// Returns channels A and B and remembers the quarter: most ticks stay in it.
     #[inline]
     pub fn see(&mut self, position_counts: f64) -> (bool, bool) {
         let [begin, end] = self.quarter;
@@ -43,20 +43,20 @@ impl Encoder {
         self.levels = levels(quarter);
     }
 
-    /// The highest speed in counts a second at which a circuit that samples once in `tick_s`
-    /// seconds sees every quarter: one count a tick.
+    /// Returns the greatest speed in counts per second at which a circuit that samples once in
+    /// `tick_s` seconds sees every quarter: one count per tick.
     ///
-    /// Beyond it two channels change at once now and then, beyond twice of it quarters are
-    /// skipped and the direction seems to turn.
+    /// Above it both channels sometimes change at once; above twice that speed quarters are
+    /// skipped and the direction appears reversed.
     pub fn countable_counts_per_s(&self, tick_s: f64) -> f64 {
         1.0 / tick_s
     }
 }
 
-/// The quarter that a position is in.
+/// Returns the quarter of a position.
 fn quarter(position_counts: f64) -> f64 {
     let nearest = (position_counts + 0.5).floor();
-    // The sum may be rounded over the end of a quarter.
+    // Rounding may move the sum past the end of a quarter.
     match position_counts < nearest - 0.5 {
         true => nearest - 1.0,
         false => nearest,

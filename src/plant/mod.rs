@@ -1,5 +1,5 @@
-//! What is no hardware of ours: motors, encoders, loads. Behavioural, plain programs on the same
-//! reference tick.
+//! Behavioural models of the plant: motors, encoders, loads, on the same reference tick as the
+//! circuits.
 //!
 //! ```text
 //!             ┌────────────────────────── servo axis ──────────────────────────┐
@@ -28,7 +28,7 @@
 //!              └─────────────────────────────────────────────────────────┘
 //! ```
 //!
-//! `rtl_notes/plant.md` has the equations and what is idealised.
+//! `rtl_notes/plant.md` has the equations and the idealisations.
 
 mod absolute;
 mod ahead;

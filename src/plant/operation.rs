@@ -1,27 +1,27 @@
-//! An operation that a machine does in passing: a valve, a knife, a marker.
+//! Operation that a machine does in passing: a valve, a knife, a marker.
 
-/// It takes effect some time after its signal begins, and for as long as the signal stands.
+/// Operation that takes effect some time after its signal begins, and ends with the signal.
 #[derive(Debug, Clone, Copy)]
 pub struct Operation {
     delay_ticks: u64,
-    /// Ticks that the signal has stood.
+    /// Number of ticks for which the signal has been high.
     stood: u64,
 }
 
 impl Operation {
-    /// One that takes effect after so many ticks of its signal.
+    /// Creates an operation that takes effect after `delay_ticks` ticks of its signal.
     #[must_use]
     pub fn new(delay_ticks: u64) -> Self {
         let stood = 0;
         Operation { delay_ticks, stood }
     }
 
-    /// Changes its delay, from the next tick on.
+    /// Changes the delay, from the next tick on.
     pub fn set_delay(&mut self, ticks: u64) {
         self.delay_ticks = ticks;
     }
 
-    /// One tick with its signal or without; whether it has effect in it.
+    /// Advances one tick; returns true if the operation has effect in it.
     pub fn step(&mut self, signal: bool) -> bool {
         let effect = signal && self.stood >= self.delay_ticks;
         self.stood = if signal { self.stood + 1 } else { 0 };

@@ -1,13 +1,13 @@
-//! The numbers of an axis, and what is allowed of them.
+//! Parameters of a servo axis, and their allowed ranges.
 
 use crate::settings::{CLOCK_RANGE_HZ, SettingError, within};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
-/// Any amount that is above 0 and not absurd.
+/// Allowed range of positive quantities.
 pub(super) const POSITIVE: RangeInclusive<f64> = 1e-9..=1e9;
 
-/// Servo driver, motor, load and encoder of one axis.
+/// Parameters of servo driver, motor, load and encoder of one axis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ServoParameters {
@@ -15,18 +15,18 @@ pub struct ServoParameters {
     pub velocity_loop_s: f64,
     /// Inertia of motor and load, in kg·m².
     pub inertia_kg_m2: f64,
-    /// Greatest torque that the driver gives, in N·m.
+    /// Greatest torque of the driver, in N·m.
     pub max_torque_nm: f64,
     /// Coulomb friction, in N·m; 0 for none.
     pub friction_nm: f64,
     /// Speed at the greatest word of the D/A converter, in rad/s.
     pub rated_speed_rad_per_s: f64,
-    /// Encoder counts a turn: four times its lines.
+    /// Encoder counts per turn: four times its lines.
     pub counts_per_rev: f64,
 }
 
 impl Default for ServoParameters {
-    /// A motor of 400 W at 3000 a minute with an encoder of 500 lines, no friction.
+    /// Returns a 400 W motor with 3000 turns per minute, an encoder of 500 lines, and no friction.
     fn default() -> Self {
         ServoParameters {
             velocity_loop_s: 0.005,
@@ -44,7 +44,7 @@ impl ServoParameters {
     ///
     /// # Errors
     ///
-    /// [`SettingError`] names the first that is outside its range or not a number.
+    /// Returns a [`SettingError`] that names the first field outside its range or not a number.
     pub fn validate(&self) -> Result<(), SettingError> {
         let friction = 0.0..=*POSITIVE.end();
         let fields = [
@@ -64,18 +64,18 @@ impl ServoParameters {
             .try_for_each(|(field, value, allowed)| within(field, value, allowed))
     }
 
-    /// Encoder counts a second at the greatest word of the D/A converter.
+    /// Returns the encoder counts per second at the greatest word of the D/A converter.
     pub fn rated_counts_per_s(&self) -> f64 {
         self.rated_speed_rad_per_s * self.counts_per_rad()
     }
 
-    /// Encoder counts a radian.
+    /// Returns the encoder counts per radian.
     pub fn counts_per_rad(&self) -> f64 {
         self.counts_per_rev / std::f64::consts::TAU
     }
 }
 
-/// Checks the length of a reference tick: that of any clock that is accepted will do.
+/// Checks the length of a reference tick; every allowed clock is valid.
 pub(super) fn check_tick(tick_s: f64) -> Result<(), SettingError> {
     let least = 1.0 / *CLOCK_RANGE_HZ.end() as f64;
     within("tick_s", tick_s, &(least..=*POSITIVE.end()))

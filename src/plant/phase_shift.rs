@@ -1,17 +1,18 @@
-//! A phase-shift transducer: two primaries, and a secondary whose phase is the place in a pitch.
+//! Phase-shift transducer: two primaries, and a secondary whose phase is the position within a
+//! pitch.
 
-/// Gives the sign of a secondary that is excited by sine and cosine of a carrier.
+/// Transducer that outputs the sign of a secondary, which sine and cosine of a carrier excite.
 ///
-/// The secondary is sin(φ − x): φ is the phase of the carrier, x the position, a whole pitch of it being
-/// a whole period. It stands for the tick from half a tick before to half a tick after, so that a body
-/// on a whole count crosses in the middle of a tick.
+/// The secondary is sin(φ − x): φ is the phase of the carrier, x the position; a pitch of the
+/// position is a period. The sign holds from half a tick before to half a tick after the tick, so
+/// that a body on a whole count crosses in the middle of a tick.
 #[derive(Debug, Clone, Copy)]
 pub struct PhaseShiftTransducer {
     pitch_counts: f64,
 }
 
 impl PhaseShiftTransducer {
-    /// A transducer with so many counts in a pitch, which are ticks of the carrier.
+    /// Creates a transducer with `pitch_counts` counts per pitch, which are ticks of the carrier.
     #[must_use]
     pub fn new(pitch_counts: u32) -> Self {
         PhaseShiftTransducer {
@@ -19,8 +20,8 @@ impl PhaseShiftTransducer {
         }
     }
 
-    /// Whether the secondary is above zero in a tick with this phase of the carrier, in ticks, and the
-    /// body at a position in counts.
+    /// True if the secondary is positive in a tick with this phase of the carrier, in ticks, and
+    /// the body at a position in counts.
     #[inline]
     #[must_use]
     pub fn secondary(&self, phase: u64, position_counts: f64) -> bool {
@@ -28,9 +29,9 @@ impl PhaseShiftTransducer {
         2.0 * angle < self.pitch_counts
     }
 
-    /// The fastest speed, in counts a tick, at which the secondary's phase is followed in whole ticks: in
-    /// a period of the carrier two of its crossings, which come in M/(1 + v), are at most a quarter of a
-    /// pitch on.
+    /// Returns the greatest speed, in counts per tick, at which the secondary's phase is tracked
+    /// in whole ticks: from one of its crossings to the next but one, M/(1 + v) ticks later, the
+    /// body moves by at most a quarter of a pitch.
     #[must_use]
     pub fn followed_counts_per_tick(pitch_counts: u32) -> f64 {
         let pitch = f64::from(pitch_counts);
@@ -42,7 +43,7 @@ impl PhaseShiftTransducer {
 mod tests {
     use super::*;
 
-    /// The secondary is the sine, and crosses where the carrier comes to the place.
+    /// The secondary is a sine, and crosses zero when the carrier reaches the position.
     #[test]
     fn it_is_the_sign_of_a_sine() {
         let transducer = PhaseShiftTransducer::new(40);

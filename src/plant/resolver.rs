@@ -1,27 +1,27 @@
-//! A resolver in amplitude mode with its A/D converters: a winding that is excited, two that are read.
+//! Resolver in amplitude mode with A/D converters: one winding is excited, two are read.
 
 use crate::settings::{SettingError, within};
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
-/// Pole pairs that are accepted.
+/// Allowed number of pole pairs.
 pub const POLE_PAIRS_RANGE: RangeInclusive<u32> = 1..=64;
-/// Offsets and mismatches that are accepted, as parts of the amplitude.
+/// Allowed offsets and mismatches, as parts of the amplitude.
 pub const WINDING_RANGE: RangeInclusive<f64> = -0.1..=0.1;
 
-/// What is not as it should be with a resolver, and its pitch.
+/// Imperfections of a resolver, and its pitch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ResolverParameters {
-    /// Pitches of a turn.
+    /// Number of pitches per turn.
     pub pole_pairs: u32,
-    /// What the sine winding's channel has at an angle of 0, as a part of the amplitude.
+    /// Offset of the sine winding's channel at an angle of 0, as a part of the amplitude.
     pub sine_offset: f64,
-    /// How much greater the sine winding's amplitude is than the other's, as a part of it.
+    /// Excess amplitude of the sine winding over the other one, as a part of the amplitude.
     pub gain_mismatch: f64,
 }
 
 impl Default for ResolverParameters {
-    /// Four pole pairs, and both windings as they should be.
+    /// Returns four pole pairs, and ideal windings.
     fn default() -> Self {
         ResolverParameters {
             pole_pairs: 4,
@@ -35,7 +35,7 @@ impl ResolverParameters {
     /// Checks every field.
     ///
     /// # Errors
-    /// Names the first that is outside its range or not a number.
+    /// Returns an error that names the first field outside its range or not a number.
     pub fn validate(&self) -> Result<(), SettingError> {
         within("pole_pairs", self.pole_pairs, &POLE_PAIRS_RANGE)?;
         within("sine_offset", self.sine_offset, &WINDING_RANGE)?;
@@ -43,18 +43,18 @@ impl ResolverParameters {
     }
 }
 
-/// Gives the A/D words of both windings, each at a peak of the carrier.
+/// Resolver that outputs the A/D words of both windings, each at a peak of the carrier.
 ///
-/// The windings are a·sin θ and a·cos θ, a being 0.9 of the converters' full scale, and are rounded to
-/// whole words. They are sampled at once, and stand until the next strobe.
+/// The windings are a·sin θ and a·cos θ with a = 0.9 of the converters' full scale, rounded to
+/// whole words. They are sampled simultaneously, and constant until the next strobe.
 #[derive(Debug, Clone, Copy)]
 pub struct Resolver {
     parameters: ResolverParameters,
     pitch_counts: f64,
-    /// The greatest word.
+    /// Greatest word.
     full_scale: f64,
     period_ticks: u32,
-    /// Ticks since the last strobe.
+    /// Number of ticks since the last strobe.
     ticks: u32,
     words: [i64; 2],
 }
@@ -63,8 +63,8 @@ impl Resolver {
     /// Amplitude of the windings, as a part of full scale.
     pub const AMPLITUDE: f64 = 0.9;
 
-    /// A resolver with so many counts in a pitch and A/D words of `bits`, sampled once in so many
-    /// ticks, at first in the first.
+    /// Creates a resolver with `pitch_counts` counts per pitch and A/D words of `bits`, sampled
+    /// once in `period_ticks` ticks, starting with the first.
     #[must_use]
     pub fn new(
         parameters: ResolverParameters,
@@ -82,7 +82,8 @@ impl Resolver {
         }
     }
 
-    /// One tick, with the body at a position in counts: the strobe, and the words of sine and cosine.
+    /// Advances one tick with the body at a position in counts; returns the strobe, and the words
+    /// of sine and cosine.
     #[inline]
     pub fn step(&mut self, position_counts: f64) -> (bool, [i64; 2]) {
         let strobe = self.ticks == 0;
@@ -102,7 +103,7 @@ impl Resolver {
 mod tests {
     use super::*;
 
-    /// The words are sine and cosine of a pitch, once in a period, with what is wrong with the sine.
+    /// The words are sine and cosine of a pitch, once per period, with the sine's imperfections.
     #[test]
     fn it_samples_sine_and_cosine() {
         let parameters = ResolverParameters {
@@ -126,7 +127,7 @@ mod tests {
         }
     }
 
-    /// What is beyond full scale is full scale.
+    /// Values beyond full scale are clipped.
     #[test]
     fn a_converter_has_an_end() {
         let parameters = ResolverParameters {

@@ -1,25 +1,24 @@
 //! Servo driver 2 and motor 3.
 //!
-//! The driver holds its torque for a tick, so the motion within a tick is a parabola, and it is
-//! integrated without error: where friction stops the motor within a tick, it is stopped at that
-//! moment.
+//! The driver's torque is constant for a tick, so the motion within a tick is a parabola, which is
+//! integrated exactly: if friction stops the motor within a tick, it stops at that moment.
 
 use super::{Plant, ServoParameters};
 
 /// Servo driver 2: first-order velocity loop with a torque limit.
 ///
-/// The torque of a tick is what brings the motor, without friction, to the speed at the tick's end
-/// that the continuous loop `inertia · (speed_reference − speed) / velocity_loop_s` would give.
+/// Without friction, the torque of a tick brings the motor to the speed that the continuous loop
+/// `inertia · (speed_reference − speed) / velocity_loop_s` would reach at the end of the tick.
 #[derive(Debug, Clone, Copy)]
 pub struct ServoDriver {
-    /// Torque per difference of speed, in N·m·s/rad.
+    /// Torque per speed difference, in N·m·s/rad.
     gain: f64,
     max_torque_nm: f64,
     rated_speed_rad_per_s: f64,
 }
 
 impl ServoDriver {
-    /// The driver of these parameters, on a reference tick of `tick_s` seconds.
+    /// Creates a driver on a reference tick of `tick_s` seconds.
     pub fn new(parameters: &ServoParameters, tick_s: f64) -> Self {
         let approach = -(-tick_s / parameters.velocity_loop_s).exp_m1();
         ServoDriver {
@@ -29,13 +28,13 @@ impl ServoDriver {
         }
     }
 
-    /// The speed in rad/s that a reference asks for, a fraction of rated speed.
+    /// Returns the speed in rad/s that a reference requests, a fraction of rated speed.
     #[inline]
     pub fn wanted_rad_per_s(&self, reference: f64) -> f64 {
         reference * self.rated_speed_rad_per_s
     }
 
-    /// Torque in N·m to come to a speed, at a speed, both in rad/s.
+    /// Returns the torque in N·m for a requested and a current speed, both in rad/s.
     #[inline]
     pub fn torque_nm(&self, wanted_rad_per_s: f64, speed_rad_per_s: f64) -> f64 {
         let missing = wanted_rad_per_s - speed_rad_per_s;
@@ -58,7 +57,7 @@ pub struct Motor {
 }
 
 impl Motor {
-    /// The motor of these parameters, at rest at position 0.
+    /// Creates a motor at rest at position 0.
     pub fn new(parameters: &ServoParameters) -> Self {
         Motor {
             ease: 1.0 / parameters.inertia_kg_m2,
@@ -69,19 +68,19 @@ impl Motor {
         }
     }
 
-    /// Position in encoder counts.
+    /// Returns the position in encoder counts.
     #[inline]
     pub fn position_counts(&self) -> f64 {
         self.position_counts
     }
 
-    /// Speed in rad/s.
+    /// Returns the speed in rad/s.
     #[inline]
     pub fn speed_rad_per_s(&self) -> f64 {
         self.speed_rad_per_s
     }
 
-    /// Moves for `time_s` seconds under a torque that stays.
+    /// Moves for `time_s` seconds under a constant torque.
     #[inline]
     pub fn step(&mut self, torque_nm: f64, time_s: f64) {
         let speed = self.speed_rad_per_s;
@@ -93,14 +92,14 @@ impl Motor {
         if (speed + acceleration * time_s) * speed >= 0.0 {
             return self.advance(acceleration, time_s);
         }
-        // It comes to rest within this time, and may go on the other way.
+        // Comes to rest within this time, and may reverse.
         let stop = -speed / acceleration;
         self.advance(acceleration, stop);
         self.speed_rad_per_s = 0.0;
         self.start(torque_nm, time_s - stop);
     }
 
-    /// From rest: friction holds it, or opposes the torque.
+    /// Starts from rest: friction holds the motor, or opposes the torque.
     #[inline]
     fn start(&mut self, torque_nm: f64, time_s: f64) {
         let over = (torque_nm.abs() - self.friction_nm).max(0.0);

@@ -1,12 +1,12 @@
-//! A hybrid step motor on its driver: the magnet of a rotor in a field that turns step by step.
+//! Hybrid stepper motor with its driver: the magnet of a rotor in a field that rotates in steps.
 //!
 //! ```text
 //! J·dω/dt = T·sin(p·(φ − θ)) − D·ω − friction        p = full steps a turn / 4
 //! ```
 //!
-//! φ is where the driver's position has the field, in whole steps or microsteps; the currents are
-//! there at once. A rotor that is more than two full steps off is nearer to the next tooth: it has
-//! lost four.
+//! φ is the position of the field according to the driver, in whole steps or microsteps; the
+//! currents follow immediately. A rotor that is off by more than two full steps is nearer to the
+//! next tooth: it has lost four.
 
 use super::parameters::{POSITIVE, check_tick};
 use crate::settings::{SettingError, within};
@@ -14,32 +14,32 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Full steps from one tooth of the rotor to the next.
 const TOOTH: f64 = 4.0;
-/// Radians of its free swing that the rotor is followed in at most at a time.
+/// Greatest integration step, in radians of the rotor's free oscillation.
 const SWING: f64 = 0.02;
-/// The most parts that a tick is cut into for that.
+/// Greatest number of parts of a tick.
 const MOST_PARTS: f64 = 1000.0;
-/// Free swings in which a rotor comes to rest, as far as it does.
+/// Number of free oscillations in which a rotor comes to rest, if it does.
 const SWINGS: f64 = 200.0;
 
-/// Step motor, driver and load of one axis.
+/// Parameters of stepper motor, driver and load of one axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepMotorParameters {
     /// Greatest torque at standstill, in N·m.
     pub holding_torque_nm: f64,
     /// Inertia of rotor and load, in kg·m².
     pub inertia_kg_m2: f64,
-    /// Torque that grows with the speed, in N·m a rad/s.
+    /// Viscous damping, in N·m per rad/s.
     pub damping_nm_s: f64,
     /// Coulomb friction, in N·m; 0 for none.
     pub friction_nm: f64,
-    /// Full steps a turn: 200 are of 1.8°.
+    /// Full steps per turn: 200 for 1.8°.
     pub full_steps_per_rev: u32,
-    /// Steps of the driver in a full step.
+    /// Driver steps per full step.
     pub microsteps: u32,
 }
 
 impl Default for StepMotorParameters {
-    /// A motor of 57 mm with its load, in full steps.
+    /// Returns a 57 mm motor with its load, in full steps.
     fn default() -> Self {
         StepMotorParameters {
             holding_torque_nm: 1.0,
@@ -56,7 +56,7 @@ impl StepMotorParameters {
     /// Checks every field.
     ///
     /// # Errors
-    /// [`SettingError`] names the first that is outside its range or not a number.
+    /// Returns a [`SettingError`] that names the first field outside its range or not a number.
     pub fn validate(&self) -> Result<(), SettingError> {
         let least = 0.0..=*POSITIVE.end();
         within("holding_torque_nm", self.holding_torque_nm, &POSITIVE)?;
@@ -67,22 +67,22 @@ impl StepMotorParameters {
         within("microsteps", self.microsteps, &(1..=1024))
     }
 
-    /// Full steps of a radian.
+    /// Returns the full steps per radian.
     fn full_steps_per_rad(&self) -> f64 {
         f64::from(self.full_steps_per_rev) / TAU
     }
 
-    /// ω0 = √(p·T/J): of small swings about a tooth, in rad/s.
+    /// Returns ω0 = √(p·T/J), the natural frequency of small oscillations about a tooth, in rad/s.
     fn natural_rad_per_s(&self) -> f64 {
         let teeth = f64::from(self.full_steps_per_rev) / TOOTH;
         (teeth * self.holding_torque_nm / self.inertia_kg_m2).sqrt()
     }
 }
 
-/// A step motor, stepped once a reference tick.
+/// Stepper motor, stepped once per reference tick.
 #[derive(Debug, Clone)]
 pub struct StepMotor {
-    /// Steps of the driver in a full step.
+    /// Driver steps per full step.
     microsteps: f64,
     /// T/J, in full steps/s².
     pull: f64,
@@ -90,23 +90,23 @@ pub struct StepMotor {
     damping: f64,
     /// Friction/J, in full steps/s².
     friction: f64,
-    /// The parts that a tick is followed in, and how long one is.
+    /// Number of parts of a tick, and the length of one.
     parts: u32,
     part_s: f64,
-    /// How long one may be.
+    /// Greatest length of a part in seconds.
     longest_s: f64,
-    /// In full steps.
+    /// Position in full steps.
     position: f64,
-    /// In full steps a second.
+    /// Speed in full steps per second.
     speed: f64,
 }
 
 impl StepMotor {
-    /// A motor at rest at position 0, on a reference tick of `tick_s` seconds.
+    /// Creates a motor at rest at position 0, on a reference tick of `tick_s` seconds.
     ///
     /// # Errors
-    /// [`SettingError`] names the parameter, or `tick_s`, that is out of range; the inertia, if in a
-    /// tick the rotor swings or slows by more than can be followed.
+    /// Returns a [`SettingError`] that names the parameter, or `tick_s`, that is out of range; or
+    /// the inertia, if the rotor oscillates or slows by too much within a tick.
     pub fn new(parameters: &StepMotorParameters, tick_s: f64) -> Result<Self, SettingError> {
         parameters.validate()?;
         check_tick(tick_s)?;
@@ -133,50 +133,51 @@ impl StepMotor {
         })
     }
 
-    /// One tick, with the driver at `commanded`, in its steps.
+    /// Advances one tick, with the driver at `commanded`, in its steps.
     pub fn step(&mut self, commanded: i64) {
         self.go_on(commanded, self.parts, self.part_s);
     }
 
-    /// Goes on until it is at rest, with the driver at `commanded`: for 200 of its swings at most.
+    /// Advances until the motor is at rest, with the driver at `commanded`: at most 200 free
+    /// oscillations.
     pub fn settle(&mut self, commanded: i64) {
         let parts = (SWINGS * TAU / SWING) as u32;
         self.go_on(commanded, parts, self.longest_s);
     }
 
-    /// Goes on by so many parts of so many seconds.
+    /// Advances by `parts` parts of `seconds` seconds each.
     fn go_on(&mut self, commanded: i64, parts: u32, seconds: f64) {
         let field = commanded as f64 / self.microsteps;
         for _ in 0..parts {
             let pull = self.pull * (FRAC_PI_2 * (field - self.position)).sin();
             let free = self.speed + (pull - self.damping * self.speed) * seconds;
-            // Friction takes what stops it, at most.
+            // Friction takes at most the speed that stops it.
             let taken = (self.friction * seconds).min(free.abs());
             self.speed = free - taken.copysign(free);
             self.position += self.speed * seconds;
         }
     }
 
-    /// Position in steps of the driver.
+    /// Returns the position in driver steps.
     #[must_use]
     pub fn position_steps(&self) -> f64 {
         self.position * self.microsteps
     }
 
-    /// Speed in steps of the driver a second.
+    /// Returns the speed in driver steps per second.
     #[must_use]
     pub fn speed_steps_per_s(&self) -> f64 {
         self.speed * self.microsteps
     }
 
-    /// How far the field is ahead of the rotor, in full steps.
+    /// Returns the lead of the field over the rotor, in full steps.
     #[must_use]
     pub fn off_full_steps(&self, commanded: i64) -> f64 {
         commanded as f64 / self.microsteps - self.position
     }
 
-    /// By how many steps of the driver the nearest tooth is behind the one it began at: a multiple of
-    /// four full steps.
+    /// Returns the number of driver steps by which the nearest tooth is behind the one at which
+    /// the rotor began: a multiple of four full steps.
     #[must_use]
     pub fn lost_steps(&self, commanded: i64) -> i64 {
         let teeth = (self.off_full_steps(commanded) / TOOTH).round();
@@ -211,7 +212,7 @@ mod tests {
                 ..ideal()
             };
             let mut motor = motor(&parameters);
-            // One microstep: it swings from 0 to 2 and is at 1 in every half of its period.
+            // One microstep: oscillates from 0 to 2 and is at 1 in every half period.
             let period = TAU / parameters.natural_rad_per_s();
             let (mut crossings, mut before, mut last) = (0u32, 0.0, 0);
             for tick in 1..=100_000u32 {
@@ -223,7 +224,7 @@ mod tests {
                 }
                 before = now;
             }
-            // The first is after a quarter.
+            // The first is after a quarter period.
             let measured = f64::from(last) * TICK_S / (f64::from(crossings) / 2.0 - 0.25);
             assert!(
                 (measured / period - 1.0).abs() < 2e-3,
@@ -232,7 +233,7 @@ mod tests {
         }
     }
 
-    /// A field that starts at once, at so many full steps a second.
+    /// Returns the lost steps of a field that starts at once, at `rate` full steps per second.
     fn started(parameters: &StepMotorParameters, rate: f64) -> i64 {
         let mut motor = motor(parameters);
         let per_tick = rate * f64::from(parameters.microsteps) * TICK_S;
@@ -251,7 +252,7 @@ mod tests {
             microsteps: 256,
             ..ideal()
         };
-        // Seen from the field the rotor is a pendulum that is pushed: electrically by 2ω0 at most.
+        // Relative to the field the rotor is a driven pendulum: electrically at most 2ω0.
         let most = 2.0 * parameters.natural_rad_per_s() / FRAC_PI_2;
         assert_eq!(started(&parameters, 0.98 * most), 0);
         assert!(started(&parameters, 1.02 * most) > 0);
@@ -278,7 +279,7 @@ mod tests {
         let off = motor.off_full_steps(command(100_000));
         assert!((off - lag).abs() < 0.01, "{off} {lag}");
         assert!((motor.speed_steps_per_s() / 256.0 - rate).abs() < 2.0);
-        // It stops where friction holds it, behind its field by no more.
+        // Stops where friction holds it, behind its field by no more.
         for _ in 0..100_000 {
             motor.step(command(100_000));
         }
@@ -358,7 +359,7 @@ mod tests {
             let error = StepMotor::new(&parameters, TICK_S).unwrap_err().to_string();
             assert!(error.contains(field), "{error}");
         }
-        // ω0 is 1000 rad/s: 20 rad are 20 ms of it, or 10 ms of one that is twice as quick.
+        // ω0 is 1000 rad/s: 20 rad take 20 ms, or 10 ms for a motor that is twice as fast.
         assert!(StepMotor::new(&ideal(), 0.0199).is_ok());
         let quick = StepMotorParameters {
             inertia_kg_m2: ideal().inertia_kg_m2 / 4.0,

@@ -1,4 +1,4 @@
-//! The plant against the closed forms of its equations.
+//! Plant compared with the closed forms of its equations.
 
 use super::*;
 use crate::settings::CLOCK_RANGE_HZ;
@@ -33,7 +33,7 @@ fn a_step_of_the_reference_is_followed_with_the_time_constant() {
             let speed = target * (1.0 - rest);
             assert!((axis.speed_counts_per_s() - speed).abs() < 1e-6, "{time}");
             let position = target * (time - velocity_loop_s * (1.0 - rest));
-            // As the note has it: (tick / time constant)² / 12 of the distance it lags behind.
+            // According to the note: (tick / time constant)² / 12 of the lag.
             let error = (TICK_S / velocity_loop_s).powi(2) / 12.0 * target * velocity_loop_s;
             let off = (axis.position_counts() - position).abs();
             assert!(off < error + 1e-6, "{time}: {off}");
@@ -71,7 +71,7 @@ fn friction_holds_at_rest_and_stops_in_time() {
             assert_eq!(motor.speed_rad_per_s(), 0.0);
             assert_eq!(motor.position_counts(), 0.0);
         }
-        // 0.7 N·m over friction for 10 ms, then nothing: it stops within the second that follows.
+        // 0.7 N·m above friction for 10 ms, then nothing: stops within the following second.
         motor.step(1.2 * sign, 0.01);
         let (torque, inertia) = (0.7, parameters.inertia_kg_m2);
         let speed = torque / inertia * 0.01;
@@ -81,7 +81,7 @@ fn friction_holds_at_rest_and_stops_in_time() {
         let angle = 0.5 * speed * 0.01 + 0.5 * speed * speed * inertia / 0.5;
         let counts = sign * angle * parameters.counts_per_rad();
         assert!((motor.position_counts() - counts).abs() < 1e-6);
-        // Braked by more than friction it goes on the other way.
+        // Braked by more than friction it reverses.
         motor.step(1.2 * sign, 0.01);
         motor.step(-0.6 * sign, 1.0);
         let stop = speed * inertia / 1.1;
@@ -100,7 +100,7 @@ fn friction_takes_its_share_of_the_speed() {
     for _ in 0..40_000 {
         axis.step(FULL / 2, FULL);
     }
-    // The driver has no integral action: it gives the friction's torque for a difference of speed.
+    // The driver has no integral action: a speed difference provides the friction's torque.
     let lag = 0.4 * parameters.velocity_loop_s / parameters.inertia_kg_m2;
     let speed = parameters.rated_speed_rad_per_s * (FULL / 2) as f64 / FULL as f64 - lag;
     let seen = axis.speed_counts_per_s() / parameters.counts_per_rad();
@@ -116,7 +116,7 @@ fn the_encoder_turns_through_its_quarters() {
             assert_eq!(channels, up[count.rem_euclid(4) as usize], "{count} {part}");
         }
     }
-    // At the countable speed no tick turns by more than a quarter.
+    // At the countable speed no tick moves by more than a quarter.
     let step = Encoder::default().countable_counts_per_s(TICK_S) * TICK_S;
     for tick in 0..1000 {
         let at = |tick: i32| Encoder::default().channels(0.3 + f64::from(tick) * step);

@@ -1,4 +1,4 @@
-//! A motor with an elastic load (13 = motor 32 and load 33 of CN104204977, Fig. 1): two inertias,
+//! Motor with an elastic load (13 = motor 32 and load 33 of CN104204977, Fig. 1): two inertias,
 //! shaft, friction, backlash, and an encoder on the motor.
 //!
 //! ```text
@@ -11,8 +11,7 @@
 //!              └─────────────────────────────────────────────────────────┘
 //! ```
 //!
-//! Between events the motion is linear and is integrated without error; a tick is split at its
-//! events.
+//! Between events the motion is linear and is integrated exactly; a tick is split at its events.
 
 mod drive;
 mod events;
@@ -37,15 +36,15 @@ pub struct TwoMassAxis {
     tick_s: f64,
     counts_per_rad: f64,
     equations: Equations,
-    /// The whole tick without dry friction and backlash.
+    /// Step of a whole tick without dry friction and backlash.
     whole: Step,
-    /// A piece of a tick, for each regime.
+    /// Step of a piece of a tick, for each regime.
     pieces: [Step; 8],
     count: u32,
-    /// The torque word that stands, and its torque.
+    /// Current torque word, and its torque.
     asked: (i64, f64),
     torque_nm: f64,
-    /// On the load from outside.
+    /// External torque on the load, in N·m.
     load_torque_nm: f64,
     /// Motor angle, load angle, motor speed, load speed, in rad and rad/s.
     state: State,
@@ -53,7 +52,7 @@ pub struct TwoMassAxis {
     flank: Flank,
 }
 
-/// What of a two-mass axis changes.
+/// State of a two-mass axis.
 #[derive(Debug, Clone, Copy)]
 pub struct TwoMassState {
     torque_nm: f64,
@@ -88,16 +87,17 @@ impl Plant for TwoMassAxis {
 }
 
 impl TwoMassAxis {
-    /// The torque word that asks for the greatest torque; so does -32,768 with a minus.
+    /// Torque word that requests the greatest torque; −32,768 requests the greatest negative
+    /// torque.
     pub const FULL_SCALE: i64 = 32_767;
 
-    /// An axis at rest at position 0, in the middle of its backlash, on a reference tick of
-    /// `tick_s` seconds.
+    /// Creates an axis at rest at position 0, in the middle of its backlash, on a reference tick
+    /// of `tick_s` seconds.
     ///
     /// # Errors
     ///
-    /// [`SettingError`] names the parameter, or `tick_s`, that is out of range. A tick is also
-    /// too long where it is more than [`TwoMassParameters::longest_tick_s`].
+    /// Returns a [`SettingError`] that names the parameter, or `tick_s`, that is out of range. A
+    /// tick longer than [`TwoMassParameters::longest_tick_s`] is out of range too.
     pub fn new(parameters: &TwoMassParameters, tick_s: f64) -> Result<Self, SettingError> {
         parameters.validate()?;
         check_tick(tick_s)?;
@@ -149,17 +149,17 @@ impl TwoMassAxis {
         })
     }
 
-    /// The torque on the load from outside, in N·m at the motor's shaft, from the next tick on: a
-    /// cutting force, a weight.
+    /// Sets the external torque on the load, in N·m at the motor's shaft, from the next tick on: a
+    /// cutting force or a weight.
     pub fn set_load_torque_nm(&mut self, torque_nm: f64) {
         self.load_torque_nm = torque_nm;
     }
 
-    /// One tick under this torque word of 16 bits, beyond [`TwoMassAxis::FULL_SCALE`] the greatest
-    /// torque. Gives the encoder's channels A and B of the tick to come.
+    /// Advances one tick under this 16-bit torque word; values beyond [`TwoMassAxis::FULL_SCALE`]
+    /// request the greatest torque. Returns the encoder's channels A and B of the next tick.
     #[inline]
     pub fn step(&mut self, torque_word: i64) -> (bool, bool) {
-        // It stands for many ticks, and a division takes as long as much of the rest.
+        // The word is constant for many ticks, and a division takes as long as much of the rest.
         if self.asked.0 != torque_word {
             let word = torque_word.clamp(-Self::FULL_SCALE, Self::FULL_SCALE);
             let part = word as f64 / Self::FULL_SCALE as f64;
@@ -169,55 +169,55 @@ impl TwoMassAxis {
         self.encoder.see(self.state[0] * self.counts_per_rad)
     }
 
-    /// The encoder's channels A and B as they stand.
+    /// Returns the current levels of the encoder's channels A and B.
     #[inline]
     pub fn channels(&self) -> (bool, bool) {
         self.encoder.channels(self.position_counts())
     }
 
-    /// Position of the motor in encoder counts.
+    /// Returns the position of the motor in encoder counts.
     #[inline]
     pub fn position_counts(&self) -> f64 {
         self.state[0] * self.counts_per_rad
     }
 
-    /// Speed of the motor in encoder counts a second.
+    /// Returns the speed of the motor in encoder counts per second.
     #[inline]
     pub fn speed_counts_per_s(&self) -> f64 {
         self.state[2] * self.counts_per_rad
     }
 
-    /// Position of the load in encoder counts.
+    /// Returns the position of the load in encoder counts.
     #[inline]
     pub fn load_position_counts(&self) -> f64 {
         self.state[1] * self.counts_per_rad
     }
 
-    /// Speed of the load in encoder counts a second.
+    /// Returns the speed of the load in encoder counts per second.
     #[inline]
     pub fn load_speed_counts_per_s(&self) -> f64 {
         self.state[3] * self.counts_per_rad
     }
 
-    /// Position of the load in mm.
+    /// Returns the position of the load in mm.
     #[inline]
     pub fn load_position_mm(&self) -> f64 {
         self.load_position_counts() / self.parameters.counts_per_mm()
     }
 
-    /// By how much the motor is ahead of the load, in rad.
+    /// Returns the lead of the motor over the load, in rad.
     #[inline]
     pub fn twist_rad(&self) -> f64 {
         self.state[0] - self.state[1]
     }
 
-    /// The amplifier's torque of the last tick, in N·m.
+    /// Returns the amplifier's torque in the last tick, in N·m.
     #[inline]
     pub fn torque_nm(&self) -> f64 {
         self.torque_nm
     }
 
-    /// The torque of the shaft as it stands, on the load, in N·m.
+    /// Returns the current torque of the shaft on the load, in N·m.
     #[inline]
     pub fn shaft_torque_nm(&self) -> f64 {
         let [motor, load, motor_speed, load_speed] = self.untwisted();
@@ -230,7 +230,7 @@ impl TwoMassAxis {
         }
     }
 
-    /// The highest speed in counts a second at which every quarter is seen.
+    /// Returns the greatest speed in counts per second at which every quarter is sampled.
     pub fn countable_counts_per_s(&self) -> f64 {
         self.encoder.countable_counts_per_s(self.tick_s)
     }

@@ -1,11 +1,11 @@
-//! What a plant shows in the waves of the circuit that drives it.
+//! Signals of a plant in the waves of the circuit that drives it.
 
 use super::{BrakedBody, ServoAxis, TwoMassAxis};
 use crate::hdl::{Beside, Value, View, signals};
 use fixed::types::I56F8;
 
 signals! { for Axes as _c;
-    /// One axis as it really is.
+    /// True motion of one axis.
     pub struct AxisSignals {
         /// True position in 1/256 of a count.
         pub position: I(48) as Analog,
@@ -36,7 +36,7 @@ impl Beside for Axes {
 }
 
 impl Signals<Value> {
-    /// The axes as they stand.
+    /// Returns the current signals of the axes.
     pub fn of([x, y]: &[ServoAxis; 2]) -> Self {
         Signals {
             x: AxisSignals::of(x),
@@ -47,7 +47,7 @@ impl Signals<Value> {
 
 impl AxisSignals<Value> {
     fn of(axis: &ServoAxis) -> Self {
-        // A cast to a whole number saturates.
+        // A cast to an integer saturates.
         AxisSignals {
             position: fine(axis.position_counts()),
             speed: axis.speed_counts_per_s().round() as i64,
@@ -57,7 +57,7 @@ impl AxisSignals<Value> {
 }
 
 signals! { for Body as _c;
-    /// A braked body as it really is.
+    /// True motion of a braked body.
     pub struct BodySignals {
         /// True position in 1/256 of a count.
         pub position: I(48) as Analog,
@@ -81,7 +81,7 @@ impl Beside for Body {
 }
 
 impl BodySignals<Value> {
-    /// The body as it stands.
+    /// Returns the current signals of the body.
     pub fn of(body: &BrakedBody) -> Self {
         BodySignals {
             position: fine(body.position_counts()),
@@ -91,7 +91,7 @@ impl BodySignals<Value> {
         }
     }
 
-    /// Something that goes its own way, at a position in counts and a speed in counts a second.
+    /// Returns the signals of a body at a position in counts, with a speed in counts per second.
     pub fn at(position: f64, speed: f64) -> Self {
         BodySignals {
             position: fine(position),
@@ -103,7 +103,7 @@ impl BodySignals<Value> {
 }
 
 signals! { for Machine as _c;
-    /// A motor with an elastic load as it really is.
+    /// True motion of a motor with an elastic load.
     pub struct TwoMassSignals {
         /// True position of the motor in 1/256 of a count.
         pub position: I(48) as Analog,
@@ -129,7 +129,7 @@ signals! { for Machine as c;
 /// Motors with elastic loads beside the circuit that drives them.
 #[derive(Debug, Clone, Copy)]
 pub struct Machine {
-    /// How many.
+    /// Number of axes.
     pub axes: usize,
 }
 
@@ -139,7 +139,7 @@ impl Beside for Machine {
 }
 
 impl MachineSignals<Value> {
-    /// The axes as they stand.
+    /// Returns the current signals of the axes.
     pub fn of(axes: &[TwoMassAxis]) -> Self {
         MachineSignals {
             axes: axes.iter().map(TwoMassSignals::of).collect(),
@@ -148,7 +148,7 @@ impl MachineSignals<Value> {
 }
 
 impl TwoMassSignals<Value> {
-    /// The axis as it stands.
+    /// Returns the current signals of the axis.
     pub fn of(axis: &TwoMassAxis) -> Self {
         TwoMassSignals {
             position: fine(axis.position_counts()),
@@ -160,7 +160,7 @@ impl TwoMassSignals<Value> {
     }
 }
 
-/// A position in 1/256 of a count.
+/// Converts a position to 1/256 of a count.
 pub(crate) fn fine(counts: f64) -> i64 {
     I56F8::saturating_from_num(counts).to_bits()
 }

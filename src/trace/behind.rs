@@ -1,4 +1,4 @@
-//! Formatting and writing on a thread of its own.
+//! Formatting and writing in a separate thread.
 
 use super::dump::Format;
 use super::section::{Section, Tick};
@@ -8,33 +8,33 @@ use std::mem;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{Builder, JoinHandle};
 
-/// Sections under way: one is gathered, one is written, one lies ready for whoever is first.
+/// Number of sections: one is being filled, one is being written, one is ready for either side.
 const SECTIONS: usize = 3;
 
-/// What a thread makes of a run.
+/// Receiver of the sections of a run, in its thread.
 pub(crate) trait Sink: Send + 'static {
-    /// Changes from which on a section is full. It is longer where a tick has more.
+    /// Number of changes at which a section is full; a tick with more makes it longer.
     const CHANGES: usize;
-    /// Ticks from which on it is full.
+    /// Number of ticks at which a section is full.
     const TICKS: usize;
-    /// What is left when everything is written.
+    /// Result after everything is written.
     type Out;
     /// Writes a section.
     fn write(&mut self, section: &Section) -> io::Result<()>;
-    /// Writes what is left.
+    /// Writes the rest and returns the result.
     fn finish(self) -> io::Result<Self::Out>;
 }
 
-/// Gathers what changes in sections, for a thread that takes full ones and gives empty ones back.
+/// Collects changes in sections; a thread takes full sections and returns empty ones.
 ///
-/// There are no more sections than those it began with: the run waits for the thread.
+/// The number of sections is fixed: the run waits for the thread.
 #[derive(Debug)]
 pub(crate) struct Behind<S> {
     section: Section,
-    /// Gone once the thread is to end.
+    /// Channel to the thread; `None` once the thread is to end.
     full: Option<SyncSender<Section>>,
     spare: Receiver<Section>,
-    /// Gone once it has ended.
+    /// Handle of the thread; `None` once it has ended.
     thread: Option<JoinHandle<io::Result<S>>>,
 }
 
@@ -44,7 +44,7 @@ impl<S: Sink> Behind<S> {
         let (full, work) = sync_channel::<Section>(SECTIONS);
         let (back, spare) = sync_channel(SECTIONS);
         for _ in 1..SECTIONS {
-            // The channel has room for all of them, and its other end is here.
+            // The channel has room for all sections, and its other end exists.
             let _ = back.send(Section::default());
         }
         let thread = Builder::new().name("waves".into());
@@ -52,7 +52,7 @@ impl<S: Sink> Behind<S> {
             for mut section in work {
                 sink.write(&section)?;
                 section.clear();
-                // Fails when nobody gathers any more.
+                // Fails if the run is over.
                 let _ = back.send(section);
             }
             Ok(sink)
@@ -69,10 +69,10 @@ impl<S: Sink> Behind<S> {
         })
     }
 
-    /// Hands the section over and puts an empty one in its place.
+    /// Sends the section to the thread and continues with an empty one.
     ///
     /// # Errors
-    /// That of the sink, with an earlier section.
+    /// Returns the error of the sink for an earlier section.
     fn hand_over(&mut self) -> io::Result<()> {
         let full = mem::take(&mut self.section);
         let sent = self.full.as_ref().is_some_and(|to| to.send(full).is_ok());
@@ -81,12 +81,12 @@ impl<S: Sink> Behind<S> {
                 self.section = empty;
                 Ok(())
             }
-            // It ends early only with an error.
+            // The thread ends early only on an error.
             _ => self.join().and(Err(ended())),
         }
     }
 
-    /// Waits until everything that was handed over is written.
+    /// Waits until all sections sent are written.
     fn join(&mut self) -> io::Result<S> {
         self.full = None;
         match self.thread.take().map(JoinHandle::join) {
@@ -121,11 +121,11 @@ impl<S: Sink> Format for Behind<S> {
 }
 
 impl<S> Drop for Behind<S> {
-    /// Waits for the thread, so that the sink is gone too.
+    /// Waits for the thread, so that the sink is dropped too.
     fn drop(&mut self) {
         self.full = None;
         if let Some(thread) = self.thread.take() {
-            // Who drops it unfinished wants no result.
+            // Without `finish`, nobody wants the result.
             let _ = thread.join();
         }
     }

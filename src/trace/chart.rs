@@ -1,8 +1,8 @@
-//! Timing charts that live in Markdown and are executed.
+//! Timing charts in Markdown that are executed.
 //!
-//! A chart is a fenced code block whose first line names a circuit and, in brackets, what it is
-//! built with. A `tick` line counts the columns, from power-on at tick 0. Below it stands a line
-//! a signal:
+//! A chart is a fenced code block. Its first line names a circuit and, in brackets, its build
+//! arguments. A `tick` line numbers the columns, from power-on at tick 0. Each line below it is a
+//! signal:
 //!
 //! ````markdown
 //! ```chart counter[3] the counter wraps at its period
@@ -13,14 +13,14 @@
 //! ```
 //! ````
 //!
-//! - `> port` gives a port in its values; a port that is not listed stays at zero.
-//! - `= signal` says what is expected of a register or net, by its path below the circuit
+//! - `> port` gives an input port its values; a port that is not listed stays at zero.
+//! - `= signal` gives the expected values of a register or net, by its path below the circuit
 //!   (`axis.count` is `count` of the part `axis`).
 //! - A cell is a number (`12`, `-3`, `0x1f`, `0b101`), the name of a state, `_` for a low or `#`
 //!   for a high bit. `.` repeats the cell before it; `-` is not checked.
-//! - Cells stand apart; runs of `_`, `#`, `.` and `-` may be written together: `_##_` is four
+//! - Spaces separate cells; runs of `_`, `#`, `.` and `-` may be written together: `_##_` is four
 //!   cells.
-//! - Lines that are empty or begin with `//` say nothing.
+//! - Lines that are empty or begin with `//` are ignored.
 //!
 //! A register shows at tick n + 1 what was decided at tick n.
 
@@ -30,18 +30,18 @@ mod run;
 pub use parse::parse;
 pub use run::{ChartFailure, Mismatch};
 
-/// A timing chart, read but not yet run.
+/// Timing chart that was read but not yet run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Chart {
-    /// The name of the circuit: its [`NAME`](crate::hdl::Circuit::NAME).
+    /// Name of the circuit: its [`NAME`](crate::hdl::Circuit::NAME).
     pub circuit: String,
-    /// What stands in brackets behind it: widths and whatever else the circuit is built with.
+    /// Build arguments in brackets, such as widths.
     pub args: Vec<u64>,
-    /// What is written behind that.
+    /// Title after the brackets.
     pub title: String,
-    /// The line of its fence in the note, from 1.
+    /// Line of the fence in the note, from 1.
     pub line: usize,
-    /// The number of ticks.
+    /// Number of ticks.
     ticks: usize,
     inputs: Vec<Row>,
     expected: Vec<Row>,
@@ -51,7 +51,7 @@ pub struct Chart {
 struct Row {
     line: usize,
     name: String,
-    /// One a tick.
+    /// One cell per tick.
     cells: Vec<Cell>,
 }
 
@@ -59,89 +59,89 @@ struct Row {
 enum Cell {
     Low,
     High,
-    /// As the cell before.
+    /// Repeats the cell before.
     Repeat,
     /// Not checked.
     Any,
     Word(String),
 }
 
-/// A chart that cannot be read, or that does not fit its circuit.
+/// Chart that cannot be read, or that does not fit its circuit.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {problem}")]
 pub struct ChartError {
-    /// The line in the note, from 1.
+    /// Line in the note, from 1.
     pub line: usize,
-    /// What is wrong.
+    /// Problem with the chart.
     pub problem: Problem,
 }
 
-/// What is wrong with a chart.
+/// Problem with a chart.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Problem {
     /// The fence does not name a circuit.
     #[error("a chart begins with ```chart CIRCUIT or ```chart CIRCUIT[NUMBER, ...]")]
     Fence,
-    /// A title that makes the line no fence.
+    /// The title has a backtick, so that the line is no fence.
     #[error("a title has no backtick: Markdown takes the line for text")]
     Backtick,
-    /// The note ends within the chart.
+    /// The note ends inside the chart.
     #[error("the chart is not closed")]
     Unclosed,
-    /// A line of no known kind.
+    /// The line is of no known kind.
     #[error("a line begins with `tick`, `> port`, `= signal` or `//`")]
     Line,
-    /// No `tick` line before the signals, or a second one.
+    /// There is no `tick` line before the signals, or a second one.
     #[error("a chart has one `tick` line, before its signals: tick 0 1 2 ...")]
     Ticks,
-    /// Nothing expected.
+    /// No signal has expected values.
     #[error("the chart expects nothing: it has no `= signal` line")]
     Empty,
-    /// Fewer or more cells than ticks.
+    /// A signal has fewer or more cells than there are ticks.
     #[error("{signal} has {cells} cells, the chart has {ticks} ticks")]
     Ragged {
-        /// The signal.
+        /// Signal.
         signal: String,
-        /// Its cells.
+        /// Number of its cells.
         cells: usize,
-        /// The columns of the chart.
+        /// Number of columns of the chart.
         ticks: usize,
     },
-    /// A signal with two lines.
+    /// A signal has two lines.
     #[error("{0} has a line already")]
     Twice(String),
-    /// A line that begins with a repetition.
+    /// A line begins with a repetition.
     #[error("{0} begins with `.`: there is no cell before it")]
     NothingToRepeat(String),
-    /// A port in without a value.
+    /// An input port has a cell without a value.
     #[error("{0} is a port in: `-` gives it no value")]
     NoValue(String),
-    /// The chart is of another circuit.
+    /// The chart belongs to another circuit.
     #[error("the chart is of {chart}, the circuit is {circuit}")]
     Circuit {
-        /// The circuit named in the chart.
+        /// Circuit named in the chart.
         chart: String,
-        /// The one it was run on.
+        /// Circuit that runs the chart.
         circuit: String,
     },
-    /// A path that is no signal, or no port in.
+    /// A path names no signal, or no input port.
     #[error("the circuit has no {what} {name}; it has: {}", near.join(", "))]
     Unknown {
-        /// "port in" or "signal".
+        /// Kind of path: "port in" or "signal".
         what: &'static str,
-        /// The name.
+        /// Path in the chart.
         name: String,
-        /// The names that resemble it most.
+        /// Names that are most similar.
         near: Vec<String>,
     },
-    /// A cell that is no value of its signal.
+    /// A cell is not a value of its signal.
     #[error("{signal}: {cell} is not a value of {allowed}")]
     Value {
-        /// The signal.
+        /// Signal.
         signal: String,
-        /// The cell.
+        /// Cell.
         cell: String,
-        /// What would be.
+        /// Allowed values.
         allowed: String,
     },
     /// The circuit cannot be run.

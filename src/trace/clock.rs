@@ -4,31 +4,31 @@ use vcd::TimescaleUnit;
 /// Femtoseconds in a second.
 const FS: u64 = 1_000_000_000_000_000;
 
-/// The reference clock of a run, and how its time is written in a VCD.
+/// Reference clock of a run, and its time unit in a VCD.
 ///
-/// The unit of time is the coarsest of 100, 10 and 1 times s, ms, µs, ns, ps, fs in which the
-/// period and half the period are whole numbers. Where none is (3 MHz: a third of a
-/// microsecond), it is 1 fs with the period rounded to an even number of them.
+/// The time unit is the coarsest of 100, 10 and 1 times s, ms, µs, ns, ps, fs in which both the
+/// period and half the period are whole numbers. If there is none (at 3 MHz: a third of a
+/// microsecond), it is 1 fs and the period is rounded to an even number of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Clock {
     hz: u64,
-    /// Half a period, in units.
+    /// Half a period in time units.
     half: u64,
-    /// The unit in femtoseconds, a power of ten.
+    /// Time unit in femtoseconds, a power of ten.
     unit: u64,
     exact: bool,
 }
 
-/// A clock rate that cannot be written in a VCD.
+/// Clock rate that a VCD cannot express.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("a clock of {hz} Hz cannot be written; allowed: 1 Hz to {max} Hz", max = Clock::MAX_HZ)]
 pub struct ClockError {
-    /// The rate asked for, in Hz.
+    /// Requested rate in Hz.
     pub hz: u64,
 }
 
 impl Default for Clock {
-    /// 1 MHz.
+    /// Returns a clock of 1 MHz.
     fn default() -> Self {
         Clock {
             hz: 1_000_000,
@@ -40,13 +40,13 @@ impl Default for Clock {
 }
 
 impl Clock {
-    /// The fastest clock: a period of two femtoseconds.
+    /// Greatest clock rate in Hz: a period of two femtoseconds.
     pub const MAX_HZ: u64 = FS / 2;
 
-    /// A clock of `hz` periods a second.
+    /// Creates a clock of `hz` periods per second.
     ///
     /// # Errors
-    /// No clock, or a period below two femtoseconds.
+    /// Returns an error for 0 Hz, or a period below two femtoseconds.
     pub fn from_hz(hz: u64) -> Result<Clock, ClockError> {
         if hz == 0 || hz > Self::MAX_HZ {
             return Err(ClockError { hz });
@@ -74,37 +74,37 @@ impl Clock {
         })
     }
 
-    /// Periods a second.
+    /// Returns the clock rate in Hz.
     pub fn hz(self) -> u64 {
         self.hz
     }
 
-    /// Units of time in a period; always even.
+    /// Returns the period in time units; always even.
     pub fn period(self) -> u64 {
         2 * self.half
     }
 
-    /// Whether [`period`](Clock::period) is the period of the rate, not a rounded one.
+    /// True if [`period`](Clock::period) is exact, not rounded.
     pub fn is_exact(self) -> bool {
         self.exact
     }
 
-    /// When `tick` begins, in units; `None` where that is past 2⁶⁴.
+    /// Returns the start of `tick` in time units; `None` beyond 2⁶⁴.
     pub fn rise(self, tick: u64) -> Option<u64> {
         tick.checked_mul(self.period())
     }
 
-    /// When `clk` falls in `tick`, in units; `None` where that is past 2⁶⁴.
+    /// Returns the falling edge of `clk` in `tick`, in time units; `None` beyond 2⁶⁴.
     pub fn fall(self, tick: u64) -> Option<u64> {
         self.rise(tick)?.checked_add(self.half)
     }
 
-    /// The unit of time as a power of ten of a second.
+    /// Returns the time unit as a power of ten of a second.
     pub(super) fn exponent(self) -> i8 {
         self.unit.ilog10() as i8 - 15
     }
 
-    /// The unit of time as a VCD names it: a factor of 1, 10 or 100 and what it multiplies.
+    /// Returns the time unit in VCD terms: a factor of 1, 10 or 100, and its unit.
     pub fn timescale(self) -> (u32, TimescaleUnit) {
         let units = [
             (1, TimescaleUnit::FS),

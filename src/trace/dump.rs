@@ -1,4 +1,4 @@
-//! Waves of a run, whatever their format.
+//! Waves of a run in any format.
 
 use super::layout::Layout;
 use super::walk::{Change, Walk};
@@ -7,17 +7,17 @@ use crate::hdl::{LeafView as View, RunError};
 use std::io;
 use std::ops::{ControlFlow, Range};
 
-/// How changes are written.
+/// Writer of changes in a format.
 pub(crate) trait Format {
-    /// What is left of it when it has ended.
+    /// Result after the end.
     type Out;
-    /// Takes the changes of a tick, at which `clk` rises and falls.
+    /// Writes the changes of a tick, in which `clk` rises and falls at these times.
     fn tick(&mut self, rise: u64, fall: u64, changes: &[Change]) -> io::Result<()>;
-    /// Writes what is left, up to the end of the last tick, if there was one.
+    /// Writes the rest up to the end of the last tick, if there was one.
     fn finish(self, end: Option<u64>) -> io::Result<Self::Out>;
 }
 
-/// Waves under way.
+/// Waves being written.
 #[derive(Debug)]
 pub(crate) struct Dump<F> {
     ticks: Range<u64>,
@@ -34,7 +34,7 @@ impl<F: Format> Dump<F> {
         }
     }
 
-    /// The first tick from this one on that is asked for.
+    /// Returns the first selected tick from `tick` on.
     pub fn next_look(&self, tick: u64) -> u64 {
         let next = tick.max(self.ticks.start);
         match self.ticks.contains(&next) {
@@ -43,7 +43,7 @@ impl<F: Format> Dump<F> {
         }
     }
 
-    /// Sees a tick, if it is one of those that are asked for.
+    /// Writes a tick if it is selected.
     pub fn sample(&mut self, tick: u64, view: View<'_>) -> Result<ControlFlow<()>, RunError> {
         if self.ticks.contains(&tick) {
             self.tick(tick, view)?;
@@ -51,20 +51,20 @@ impl<F: Format> Dump<F> {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// The same of a circuit whose type is forgotten.
+    /// Writes a tick.
     pub fn tick(&mut self, tick: u64, view: View<'_>) -> io::Result<()> {
         let (rise, fall) = self.walk.tick(tick, view)?;
         self.format.tick(rise, fall, self.walk.changes())
     }
 
-    /// Gives the last tick its full length.
+    /// Gives the last tick its full length and ends the waves.
     pub fn finish(self) -> io::Result<F::Out> {
         let end = self.walk.end()?;
         self.format.finish(end)
     }
 }
 
-/// What writes a dump looks at every tick of it.
+/// Makes the writer of a dump observe every tick.
 macro_rules! observes {
     ([$($bounds:tt)*] $name:ty) => {
         impl<Watched: $crate::hdl::Circuit, $($bounds)*> $crate::hdl::Observer<Watched> for $name {

@@ -1,6 +1,6 @@
-//! Dumps in the format of `fstapi.c`, which comes with GTKWave.
+//! Dumps in the FST format of GTKWave's `fstapi.c`.
 //!
-//! The crate `fst-writer` knows no strings of varying length and takes every value as text.
+//! The crate `fst-writer` supports no strings of variable length, and takes every value as text.
 
 mod encoder;
 mod header;
@@ -16,13 +16,14 @@ use std::io::{self, Seek, Write};
 
 pub(super) use encoder::Encoder;
 
-/// Writes every signal of a run, and `clk`, in the format FST of GTKWave: the same signals, names
-/// and values at the same times as [`Vcd`](super::Vcd) in a fraction of the bytes. Ports in and the
-/// ports out of the outermost circuit have their directions.
+/// Writes every signal of a run, and `clk`, in GTKWave's FST format: the same signals, names,
+/// values and times as [`Vcd`](super::Vcd) in a fraction of the bytes. Input ports, and output
+/// ports of the outermost circuit, have directions.
 ///
-/// What changes is gathered in sections; a thread compresses and writes them. It holds three
-/// sections of about 3 MB, however long the run is. Call [`finish`](Fst::finish) after the run;
-/// without it the file cannot be read. The file holds no date: the same run gives the same bytes.
+/// Changes are collected in sections; a thread compresses and writes them. Three sections of about
+/// 3 MB are kept in memory, however long the run is. Call [`finish`](Fst::finish) after the run;
+/// without it the file cannot be read. The file contains no date: the same run gives the same
+/// bytes.
 #[derive(Debug)]
 #[must_use]
 pub struct Fst<W> {
@@ -30,11 +31,12 @@ pub struct Fst<W> {
 }
 
 impl<W: Write + Seek + Send + 'static> Fst<W> {
-    /// Begins a dump of `circuit` to `out` and writes what stands at its head.
+    /// Begins a dump of `circuit` to `out` and writes the header.
     ///
     /// # Errors
-    /// A name that is used twice in a scope or cannot be written or a selected path that does not
-    /// exist, as a [`LayoutError`](super::LayoutError) within; the writer failed.
+    /// Returns a [`LayoutError`](super::LayoutError) inside if a name is duplicate in a scope or
+    /// cannot be written, or a selected path does not exist. Returns an error if the writer
+    /// failed.
     pub fn new(
         out: W,
         circuit: &impl Described,
@@ -52,7 +54,7 @@ impl<W: Write + Seek + Send + 'static> Fst<W> {
     /// writer.
     ///
     /// # Errors
-    /// The writer failed.
+    /// Returns an error if the writer failed.
     pub fn finish(self) -> io::Result<W> {
         self.dump.finish()
     }

@@ -1,4 +1,4 @@
-//! GTKWave save files: which signals of a dump are shown, in which order and how.
+//! GTKWave save files: the selection, order and display of a dump's signals.
 
 use super::layout::{CLK, Layout, Scope, companion, is_stage, is_word};
 use super::{Clock, LayoutError, Options};
@@ -6,7 +6,7 @@ use crate::hdl::{Declaration, Described, Format, Kind, Role};
 use std::fmt::Write;
 use std::ops::Range;
 
-// The flags of a trace, as GTKWave's analyzer.h numbers them.
+// Flags of a trace, numbered as in GTKWave's analyzer.h.
 const HEX: u32 = 1 << 1;
 const DECIMAL: u32 = 1 << 2;
 const BINARY: u32 = 1 << 3;
@@ -21,33 +21,34 @@ const CLOSED: u32 = 1 << 22;
 const GROUP_BEGIN: u32 = 1 << 23;
 const GROUP_END: u32 = 1 << 24;
 
-/// Signals up to which a group is open at first.
+/// Greatest number of signals in a group that is open at first.
 const OPEN: usize = 16;
-/// Words up to which a memory is listed, and stages up to which a shift register is.
+/// Greatest number of words of a memory that is listed, and of stages of a shift register.
 const WORDS: usize = 64;
 const STAGES: usize = 256;
-/// Rows that an analog trace takes below its own.
+/// Number of rows that an analog trace takes below its own.
 const ANALOG_ROWS: usize = 3;
-/// The window and the tree in it, in pixels.
+/// Window, and the tree in it, in pixels.
 const WINDOW: (usize, usize) = (1600, 900);
 const TREE: usize = 220;
-/// A character of the names and values, and the least and the most that their column takes.
+/// Width of a character in the names and values, and least and greatest width of their column, in
+/// pixels.
 const CHARACTER: usize = 9;
 const COLUMN: (usize, usize) = (180, 520);
-/// Pixels that GTKWave calls a frame; its zoom is the power of two of the time in one.
+/// Pixels that GTKWave calls a frame; its zoom is the binary logarithm of the time in a frame.
 const FRAME: f64 = 200.0;
 
-/// The save file of a circuit's dump, whose name is `dump`: `<stem>.gtkw` beside `<stem>.vcd` or
+/// Returns the save file of a circuit's dump named `dump`: `<stem>.gtkw` beside `<stem>.vcd` or
 /// `<stem>.fst`.
 ///
-/// `clk` comes first, then the ports in and out, then a group for everything else in the circuit
-/// and one for every scope in it; large groups and those below the first level are closed. Curves
-/// have the scale of what the window shows.
-/// Memories of more than 64 words are not listed, nor are shift registers of more than 256 stages.
-/// The window shows the ticks of `focus`. The two files may be moved together.
+/// `clk` comes first, then input and output ports, then a group for the rest of the circuit, and
+/// one for every scope in it. Large groups and those below the first level are closed. Curves are
+/// scaled to the ticks in the window, which are those of `focus`. Memories of more than 64 words
+/// and shift registers of more than 256 stages are not listed. The two files may be moved
+/// together.
 ///
 /// # Errors
-/// What [`Vcd::new`](super::Vcd::new) refuses.
+/// Returns the errors of [`Vcd::new`](super::Vcd::new).
 pub fn save_file(
     circuit: &impl Described,
     clock: Clock,
@@ -58,11 +59,11 @@ pub fn save_file(
     save_file_with(circuit, clock, options, dump, focus, &[])
 }
 
-/// The same with some signals once more behind `clk`, by their paths within the circuit and shown
-/// by these: those that say most of what the circuit does. What the dump has not is left out.
+/// Returns a save file as [`save_file`] does, with an overview after `clk`: signals by their paths
+/// within the circuit. Paths that are not in the dump are left out.
 ///
 /// # Errors
-/// What [`Vcd::new`](super::Vcd::new) refuses.
+/// Returns the errors of [`Vcd::new`](super::Vcd::new).
 pub fn save_file_with(
     circuit: &impl Described,
     clock: Clock,
@@ -75,7 +76,7 @@ pub fn save_file_with(
     Ok(save(&layout, clock, dump, focus, overview))
 }
 
-/// The save file of what is laid out.
+/// Returns the save file of a layout.
 pub(super) fn save(
     layout: &Layout,
     clock: Clock,
@@ -97,31 +98,31 @@ pub(super) fn save(
 struct Save<'a> {
     text: String,
     layout: &'a Layout,
-    /// The flags in force: a save file says them where they change.
+    /// Current flags: a save file lists them only when they change.
     flags: Option<u32>,
 }
 
 impl Save<'_> {
     fn line(&mut self, line: std::fmt::Arguments<'_>) {
-        // Writing to a string does not fail.
+        // Writing to a string cannot fail.
         let _ = writeln!(self.text, "{line}");
     }
 
-    /// The place of a signal that is in the dump.
+    /// Returns the index of a signal that is in the dump.
     fn at(&self, path: &str) -> Option<usize> {
         let mut leaves = self.layout.leaves.iter().zip(&self.layout.selected);
         leaves.position(|(leaf, selected)| *selected && within(leaf, ".") == path)
     }
 
     fn window(&mut self, clock: Clock, dump: &str, focus: Range<u64>, overview: &[usize]) {
-        // GTKWave counts time in whole s, ms, ... fs: a unit of 10 ns is ten to it.
+        // GTKWave counts time in whole s, ms, … fs: a unit of 10 ns is ten of them.
         let scale = u64::from(clock.timescale().0);
         let from = clock.rise(focus.start).and_then(|t| t.checked_mul(scale));
         let from = from.unwrap_or(0);
         let ticks = focus.end.saturating_sub(focus.start).max(1);
         let shown = (clock.period() * scale) as f64 * ticks as f64;
         let names = self.column(overview);
-        // Half a frame goes to scroll bars and borders.
+        // Scroll bars and borders take half a frame.
         let pane = (WINDOW.0 - TREE - names) as f64 - FRAME / 2.0;
         let zoom = -(shown * FRAME / pane).max(1.0).log2();
         self.line(format_args!("[*] {}", self.layout.top.name));
@@ -140,7 +141,7 @@ impl Save<'_> {
         self.line(format_args!("[sst_vpaned_height] 300"));
     }
 
-    /// Room for the longest name and, right of it, the longest value, in pixels.
+    /// Returns the width in pixels for the longest name and, right of it, the longest value.
     fn column(&self, overview: &[usize]) -> usize {
         let (mut names, mut values) = ("ports out".len(), 0);
         for &index in overview {
@@ -151,7 +152,7 @@ impl Save<'_> {
             if *selected {
                 let digits = match leaf.field.format {
                     Format::Hex => leaf.shape.width.div_ceil(4),
-                    // Three bits and a third make a decimal digit; there may be a sign.
+                    // A decimal digit takes about 3.3 bits; there may be a sign.
                     _ => leaf.shape.width * 3 / 10 + 2,
                 };
                 names = names.max(leaf.name.len() + "[63:0]".len());
@@ -250,14 +251,14 @@ impl Save<'_> {
         }
     }
 
-    /// A signal, `whole` by its path within the circuit instead of its name alone.
+    /// Adds a signal; with `whole` by its path within the circuit instead of its name.
     fn leaf(&mut self, leaf: &Declaration, whole: bool) {
         let flags = flags(leaf);
         let range = match leaf.shape.width {
             1 => String::new(),
             width => format!("[{}:0]", width - 1),
         };
-        // GTKWave shows what stands behind the last dot of a path, or else of an alias before it.
+        // GTKWave shows the text after the last dot of a path, or of an alias before it.
         let alias = |rest: &str| match whole && leaf.scopes.len() > 1 {
             true => format!("+{{{}{rest}}} ", within(leaf, "/")),
             false => String::new(),
@@ -288,7 +289,7 @@ impl Save<'_> {
     }
 }
 
-/// The path of a signal within the circuit.
+/// Returns the path of a signal within the circuit.
 fn within(leaf: &Declaration, joint: &str) -> String {
     let scopes = leaf.scopes.iter().skip(1).map(String::as_str);
     let path: Vec<_> = scopes.chain([leaf.name.as_str()]).collect();

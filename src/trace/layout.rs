@@ -4,18 +4,18 @@ use std::collections::HashSet;
 use std::io;
 use std::ops::Range;
 
-/// What of a run goes into a waveform.
+/// Selection of a run for a waveform.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Options {
-    /// The ticks, half-open: `10..20` is ten ticks. At the first of them everything is dumped.
+    /// Ticks, half-open: `10..20` is ten ticks. The first one has all values.
     pub ticks: Range<u64>,
-    /// The scopes and signals, by path from the circuit's name on (`machine.axis0`,
-    /// `machine.axis0.count`); `None` is all.
+    /// Scopes and signals, by path from the circuit's name on (`machine.axis0`,
+    /// `machine.axis0.count`); `None` selects all.
     pub only: Option<Vec<String>>,
 }
 
 impl Default for Options {
-    /// The whole run, all signals.
+    /// Selects the whole run and all signals.
     fn default() -> Self {
         Options {
             ticks: 0..u64::MAX,
@@ -24,29 +24,29 @@ impl Default for Options {
     }
 }
 
-/// Signals that cannot be laid out as a tree of scopes.
+/// Error in laying out signals as a tree of scopes.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum LayoutError {
-    /// A name that is used twice in a scope.
+    /// A name is duplicate in a scope.
     #[error("{0} is declared twice")]
     Duplicate(String),
-    /// A name that waveform files cannot carry.
+    /// A waveform file cannot contain the name.
     #[error("{0}: a name is made of ASCII letters, digits and underscores")]
     Name(String),
-    /// A state that waveform files cannot carry.
+    /// A waveform file cannot contain the state name.
     #[error("{path}: state {state:?}: the name of a state is made of visible ASCII characters")]
     State {
-        /// The signal.
+        /// Signal.
         path: String,
-        /// The state's name.
+        /// Name of the state.
         state: String,
     },
-    /// A selected path that is neither scope nor signal.
+    /// A selected path is neither scope nor signal.
     #[error("no scope or signal is called {wanted}; scopes: {}", scopes.join(", "))]
     Unknown {
-        /// The path asked for.
+        /// Requested path.
         wanted: String,
-        /// The scopes there are.
+        /// Existing scopes.
         scopes: Vec<String>,
     },
 }
@@ -57,25 +57,26 @@ impl From<LayoutError> for io::Error {
     }
 }
 
-/// The name of the clock in the circuit's own scope.
+/// Name of the clock in the circuit's own scope.
 pub(super) const CLK: &str = "clk";
 
-/// The signals of a circuit as a tree of scopes.
+/// Signals of a circuit as a tree of scopes.
 ///
-/// Ports in, registers and nets of a circuit share a scope, though a walk visits it three times.
+/// Input ports, registers and nets of a circuit share a scope, though a walk visits it three
+/// times.
 #[derive(Debug)]
 pub(crate) struct Layout {
-    /// Every leaf of the walk, in its order.
+    /// All leaves of the walk, in its order.
     pub leaves: Vec<Declaration>,
-    /// For every leaf, whether it is selected.
+    /// For each leaf: true if it is selected.
     pub selected: Vec<bool>,
-    /// The circuit's scope with the selected leaves in it.
+    /// Scope of the circuit, with the selected leaves.
     pub top: Scope,
-    /// The selected leaves that are ports out of the outermost circuit of which some are selected.
+    /// Selected output ports of the outermost circuit that has any selected.
     pub ports_out: Vec<usize>,
 }
 
-/// A scope with what is selected in it.
+/// Scope with the selected leaves in it.
 #[derive(Debug, Default)]
 pub(crate) struct Scope {
     pub name: String,
@@ -85,13 +86,13 @@ pub(crate) struct Scope {
 }
 
 impl Layout {
-    /// The signals of a circuit.
+    /// Lays out the signals of a circuit.
     pub fn of(circuit: &impl Described, only: Option<&[String]>) -> Result<Self, LayoutError> {
         let (name, declarations) = circuit.outlined();
         Layout::new(name, declarations.leaves, only)
     }
 
-    /// Those of a circuit of that name.
+    /// Lays out the leaves of a circuit with this name.
     pub fn new(
         name: &str,
         leaves: Vec<Declaration>,
@@ -115,7 +116,7 @@ impl Layout {
 }
 
 impl Scope {
-    /// The circuit's scope with those leaves in it that are wanted.
+    /// Builds the circuit's scope with the selected leaves.
     fn tree(name: &str, leaves: &[Declaration], wanted: impl Fn(usize) -> bool) -> Self {
         let mut top = Scope {
             name: name.to_owned(),
@@ -132,7 +133,7 @@ impl Scope {
         top
     }
 
-    /// Refuses names that are used twice.
+    /// Returns an error for duplicate names.
     fn check(&self, leaves: &[Declaration], clk: Option<&str>) -> Result<(), LayoutError> {
         let scopes = self.scopes.iter().map(|scope| scope.name.as_str());
         let mut taken: HashSet<Cow<'_, str>> = scopes.chain(clk).map(Cow::from).collect();
@@ -155,7 +156,7 @@ impl Scope {
         let Some((name, rest)) = path.split_first() else {
             return self;
         };
-        // A walk stays in a scope for a while: look at the newest first.
+        // A walk stays in a scope for a while: search the newest first.
         let place = match self.scopes.iter().rposition(|scope| scope.name == *name) {
             Some(place) => place,
             None => {
@@ -170,8 +171,8 @@ impl Scope {
     }
 }
 
-/// The ports out that a dump is compared by. Those of a circuit inside another one that has some
-/// are nets of that one.
+/// Returns the output ports by which a dump is compared. Output ports of a circuit inside another
+/// one that has some are nets of that circuit.
 fn ports_out(leaves: &[Declaration], selected: &[bool]) -> Vec<usize> {
     let is_port = |&index: &usize| selected[index] && leaves[index].is_port_out();
     let ports: Vec<usize> = (0..leaves.len()).filter(is_port).collect();
@@ -184,22 +185,22 @@ fn ports_out(leaves: &[Declaration], selected: &[bool]) -> Vec<usize> {
     ports.into_iter().filter(is_outermost).collect()
 }
 
-/// The name of the string that shows a state by name, beside the state itself.
+/// Returns the name of the string that shows a state by name, beside the state itself.
 pub(super) fn companion(leaf: &Declaration) -> Option<String> {
     matches!(leaf.field.format, Format::States(_)).then(|| format!("{}_name", leaf.name))
 }
 
-/// Whether a leaf is a word of a memory or shift register.
+/// True if a leaf is a word of a memory or shift register.
 pub(super) fn is_word(leaf: &Declaration) -> bool {
     std::ptr::eq(leaf.field, &WORD) || is_stage(leaf)
 }
 
-/// Whether it is a stage of a shift register.
+/// True if a leaf is a stage of a shift register.
 pub(super) fn is_stage(leaf: &Declaration) -> bool {
     std::ptr::eq(leaf.field, &STAGE)
 }
 
-/// Which leaves the paths select, on the boundaries of their components.
+/// Returns for each leaf if the paths select it; a path ends at a component boundary.
 pub(super) fn select(
     leaves: &[Declaration],
     only: Option<&[String]>,
@@ -227,7 +228,7 @@ pub(super) fn select(
     Ok(selected)
 }
 
-/// The paths of all scopes, each once, in the order of the walk.
+/// Returns the paths of all scopes, each once, in the order of the walk.
 fn scopes(leaves: &[Declaration]) -> Vec<String> {
     let mut seen = HashSet::new();
     let mut scopes = Vec::new();
@@ -246,7 +247,7 @@ fn is_plain(name: &str) -> bool {
     !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
 }
 
-/// Refuses names that cannot be written.
+/// Returns an error for names that cannot be written.
 fn check(top: &str, leaves: &[Declaration]) -> Result<(), LayoutError> {
     if !is_plain(top) {
         return Err(LayoutError::Name(top.to_owned()));
@@ -272,7 +273,7 @@ mod tests {
     use super::*;
     use crate::registry::{CATALOGUE, Request, find};
 
-    /// What a dump names is what Verilog has as outputs.
+    /// The ports named in a dump are the output ports in Verilog.
     #[test]
     fn ports_out_are_those_of_the_outermost_circuit() {
         let mut bundles = 0;
@@ -292,7 +293,7 @@ mod tests {
         assert!(bundles > 0, "no circuit has a bundle of ports out");
     }
 
-    /// Of a part that stands alone in a dump they are that part's.
+    /// For a part alone in a dump, they are its own ports.
     #[test]
     fn of_a_selection_the_outermost_circuit_counts() {
         let entry = find("unit_law").unwrap();

@@ -1,8 +1,8 @@
-//! What a run looks like: dumps as VCD and FST and their GTKWave save files, recordings, text
-//! waves, timing charts that are executed, and the stimulus as a file.
+//! Waves of a run: VCD and FST dumps with GTKWave save files, recordings, text waves, executable
+//! timing charts, and stimulus files.
 //!
-//! At tick n everything is sampled at time n·P with `clk` high, `clk` falls half a period later,
-//! and the registers of tick n + 1 show from (n + 1)·P on.
+//! Tick n is sampled at time n·P with `clk` high. `clk` falls half a period later, and the
+//! registers of tick n + 1 appear at (n + 1)·P.
 
 mod behind;
 pub mod chart;
@@ -38,21 +38,21 @@ use crate::hdl::{Described, LeafView as View, Model, RunError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Begins the comment of a VCD that names the ports out; their paths follow.
+/// Prefix of the VCD comment that lists the output ports; their paths follow.
 pub(crate) const PORTS_OUT: &str = "ports out:";
 
 /// Ticks that the window of a replay shows at first.
 const FOCUS: u64 = 40;
 
-/// Runs a circuit from power-on on these words of its ports in, a tick each, and writes
-/// `<stem>.vcd` and the save file `<stem>.gtkw` into `dir`, which is made where it is missing.
+/// Runs a circuit from power-on with the given words of its input ports, one item per tick, and
+/// writes `<stem>.vcd` and the save file `<stem>.gtkw` into `dir`, which is created if necessary.
 /// Returns both paths.
 ///
-/// Both files appear whole; where something fails, no new file or directory is there.
+/// Both files appear complete; on an error, no new file or directory is left.
 ///
 /// # Errors
-/// The files cannot be written; two signals of the circuit have the same name; a tick has not one
-/// word for each port in, or a word is wider than its port.
+/// Returns an error if the files cannot be written, two signals have the same name, a tick has not
+/// one word per input port, or a word is wider than its port.
 pub fn replay(
     circuit: &impl Described,
     inputs: impl IntoIterator<Item = Vec<u64>>,
@@ -69,7 +69,7 @@ pub fn replay(
     )
 }
 
-/// The same for a circuit that is elaborated.
+/// Replays an elaborated circuit as [`replay`] does.
 pub(crate) fn play(
     model: &Model,
     inputs: &mut dyn Iterator<Item = Vec<u64>>,

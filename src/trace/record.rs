@@ -7,41 +7,41 @@ use std::io;
 use std::ops::{ControlFlow, Range};
 use strsim::osa_distance;
 
-/// Keeps what a run does in memory: a column of values for every chosen signal.
+/// Recorder of a run in memory: a column of values for every chosen signal.
 ///
-/// It costs eight bytes per signal and tick, and every word of a memory is a signal: choose the
-/// signals, or the ticks, of a long run.
+/// Memory use is eight bytes per signal and tick, and every word of a memory is a signal: choose
+/// the signals or the ticks of a long run.
 #[derive(Debug)]
 pub struct Recorder {
     record: Record,
 }
 
-/// What was asked of a [`Recorder`] that it does not hold.
+/// Error of a query to a [`Recorder`].
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum RecordError {
-    /// No such signal, or one that was not chosen.
+    /// The signal does not exist or was not chosen.
     #[error("no signal {path} was recorded{}", did_you_mean(near))]
     Unknown {
-        /// The path asked for.
+        /// Requested path.
         path: String,
-        /// The recorded paths that resemble it most, the nearest first.
+        /// Recorded paths that are most similar, the nearest first.
         near: Vec<String>,
     },
-    /// A tick that was not recorded.
+    /// The tick was not recorded.
     #[error("tick {tick} was not recorded; recorded: {}..{}", recorded.start, recorded.end)]
     Tick {
-        /// The tick asked for.
+        /// Requested tick.
         tick: u64,
-        /// The ticks there are, half-open.
+        /// Recorded ticks, half-open.
         recorded: Range<u64>,
     },
 }
 
 impl Recorder {
-    /// A recorder for the ticks and signals that `options` chooses.
+    /// Creates a recorder for the ticks and signals that `options` selects.
     ///
     /// # Errors
-    /// A chosen path that does not exist.
+    /// Returns an error if a selected path does not exist.
     pub fn new(circuit: &impl Described, options: &Options) -> Result<Self, LayoutError> {
         Ok(Recorder {
             record: Record::new(circuit.outlined().1.leaves, options)?,
@@ -50,42 +50,42 @@ impl Recorder {
 }
 
 impl Recorder {
-    /// The recorded signals, in the order of the walk.
+    /// Returns the recorded signals, in the order of the walk.
     pub fn leaves(&self) -> &[Declaration] {
         &self.record.leaves
     }
 
-    /// The recorded ticks, half-open.
+    /// Returns the recorded ticks, half-open.
     pub fn ticks(&self) -> Range<u64> {
         self.record.ticks.clone()
     }
 
-    /// Where a signal stands in [`leaves`](Recorder::leaves).
+    /// Returns the index of a signal in [`leaves`](Recorder::leaves).
     ///
     /// # Errors
-    /// No such signal was recorded.
+    /// Returns an error if no such signal was recorded.
     pub fn index(&self, path: &str) -> Result<usize, RecordError> {
         self.record.index(path)
     }
 
-    /// The values of a signal, one a tick; words of less than 64 bits have zeros above.
+    /// Returns the values of a signal, one per tick; words of less than 64 bits have zeros above.
     ///
     /// # Errors
-    /// No such signal was recorded.
+    /// Returns an error if no such signal was recorded.
     pub fn column(&self, path: &str) -> Result<&[u64], RecordError> {
         Ok(self.column_at(self.index(path)?))
     }
 
-    /// The values of the signal at `index` of [`leaves`](Recorder::leaves); none where the index
-    /// is past the end.
+    /// Returns the values of the signal at `index` of [`leaves`](Recorder::leaves); empty if the
+    /// index is past the end.
     pub fn column_at(&self, index: usize) -> &[u64] {
         self.record.column_at(index)
     }
 
-    /// The value of a signal at a tick.
+    /// Returns the value of a signal at a tick.
     ///
     /// # Errors
-    /// No such signal, or not that tick, was recorded.
+    /// Returns an error if no such signal, or not that tick, was recorded.
     pub fn at(&self, tick: u64, path: &str) -> Result<u64, RecordError> {
         self.record.at(tick, path)
     }
@@ -98,16 +98,16 @@ impl<C: hdl::Circuit> hdl::Observer<C> for Recorder {
     }
 }
 
-/// What a [`Recorder`] keeps, whatever the circuit.
+/// Contents of a [`Recorder`], independent of the circuit's type.
 #[derive(Debug)]
 pub(super) struct Record {
     options: Range<u64>,
     leaves: Vec<Declaration>,
     by_path: HashMap<String, usize>,
-    /// For every one of them its place in the walk.
+    /// Leaf of each recorded signal.
     places: Vec<usize>,
     columns: Vec<Vec<u64>>,
-    /// The ticks recorded.
+    /// Recorded ticks.
     ticks: Range<u64>,
 }
 
@@ -135,12 +135,12 @@ impl Record {
         })
     }
 
-    /// The places in the walk that it keeps.
+    /// Returns the recorded leaves.
     pub(super) fn places(&self) -> &[usize] {
         &self.places
     }
 
-    /// Keeps a tick, if it is one of the chosen.
+    /// Records a tick, if it is selected.
     pub(super) fn tick(&mut self, tick: u64, view: View<'_>) -> io::Result<()> {
         if !self.options.contains(&tick) {
             return Ok(());
@@ -198,7 +198,7 @@ fn did_you_mean(near: &[String]) -> String {
     }
 }
 
-/// The candidates that resemble `wanted` most, at most five, the nearest first.
+/// Returns the candidates most similar to `wanted`, at most five, the nearest first.
 pub(super) fn near<'a>(wanted: &str, candidates: impl Iterator<Item = &'a str>) -> Vec<String> {
     let last = |path: &'a str| path.rsplit('.').next().unwrap_or(path);
     let wanted_last = wanted.rsplit('.').next().unwrap_or(wanted);

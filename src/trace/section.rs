@@ -1,29 +1,29 @@
-//! A run in pieces.
+//! Sections of a run.
 
 use super::walk::Change;
 
-/// A piece of a run.
+/// Section of a run.
 #[derive(Debug, Default)]
 pub(super) struct Section {
     pub ticks: Vec<Tick>,
     pub changes: Vec<Change>,
-    /// When the run is over, in the last one.
+    /// End of the run, in the last section.
     pub end: Option<u64>,
 }
 
-/// A tick in it.
+/// Tick of a section.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tick {
-    /// When `clk` rises and everything changes.
+    /// Time at which `clk` rises and everything changes.
     pub rise: u64,
-    /// When `clk` falls.
+    /// Time at which `clk` falls.
     pub fall: u64,
-    /// How many changes there have been after it.
+    /// Number of changes up to and including this tick.
     pub changes: usize,
 }
 
 impl Section {
-    /// The ticks, each with its changes.
+    /// Returns the ticks, each with its changes.
     pub fn ticks(&self) -> impl Iterator<Item = (&Tick, &[Change])> {
         let mut from = 0;
         self.ticks.iter().map(move |tick| {

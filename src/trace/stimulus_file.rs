@@ -4,24 +4,25 @@ use crate::hdl::{Described, Role, RunError};
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 
-/// Bytes that are gathered before they are written.
+/// Bytes that are collected before they are written.
 const BUFFER: usize = 64 * 1024;
 
-/// Writes what goes into a circuit as text, a line a tick, for a Verilog testbench that reads it
-/// by `$fscanf(file, "%h", word)`.
+/// Writes the inputs of a circuit as text, one line per tick, for a Verilog testbench that reads
+/// them by `$fscanf(file, "%h", word)`.
 ///
-/// A line is one hexadecimal word: the ports in side by side, the first in the lowest bits, and above
-/// them one bit for a synchronous reset in this tick, which every word has. The word has as many digits as that takes.
+/// A line is one hexadecimal word: the input ports side by side, the first in the lowest bits, and
+/// above them one bit for a synchronous reset in this tick. Every word has that bit and the same
+/// number of digits.
 ///
-/// As an observer it writes the inputs of a run tick by tick, which has no reset; a runner that resets calls
-/// [`line`](StimulusFile::line) instead. It gathers its own blocks, so the writer needs no buffer.
-/// Call [`finish`](StimulusFile::finish) after the run; without it the end is missing.
+/// When used as an observer, it writes the inputs of a run tick by tick, without resets. A runner
+/// that resets calls [`line`](StimulusFile::line) instead. Output is buffered, so the writer needs no
+/// buffer. Call [`finish`](StimulusFile::finish) after the run; without it the end is missing.
 #[derive(Debug)]
 #[must_use]
 pub struct StimulusFile<W> {
     out: W,
     lines: Lines,
-    /// The tick seen last.
+    /// Tick seen last.
     last: Option<u64>,
 }
 
@@ -38,15 +39,16 @@ impl<W: Write> StimulusFile<W> {
         }
     }
 
-    /// The bits of a word: those of the ports in and that of the reset.
+    /// Returns the number of bits of a word: input ports and reset.
     pub fn bits(&self) -> usize {
         self.lines.widths.iter().sum::<usize>() + 1
     }
 
-    /// Writes the tick that comes next: the words of its ports in.
+    /// Writes the next tick: the words of its input ports.
     ///
     /// # Errors
-    /// The writer failed; there is not one word for each port in, or a word is wider than its port.
+    /// Returns an error if the writer failed, there is not one word per input port, or a word is
+    /// wider than its port.
     pub fn line(&mut self, i: &[u64], rst: bool) -> io::Result<()> {
         let refused = |error| io::Error::new(io::ErrorKind::InvalidInput, error);
         self.lines.check(i).map_err(refused)?;
@@ -57,10 +59,10 @@ impl<W: Write> StimulusFile<W> {
         self.lines.end(rst, &mut self.out)
     }
 
-    /// Hands everything to the writer, which it returns.
+    /// Writes everything that is buffered and returns the writer.
     ///
     /// # Errors
-    /// The writer failed.
+    /// Returns an error if the writer failed.
     pub fn finish(mut self) -> io::Result<W> {
         self.lines.finish(&mut self.out)?;
         Ok(self.out)
@@ -90,18 +92,18 @@ impl<C: hdl::Circuit, W: Write> hdl::Observer<C> for StimulusFile<W> {
     }
 }
 
-/// The lines of a circuit whose type is forgotten: all of [`StimulusFile`] but the walk.
+/// Lines of a stimulus: everything in [`StimulusFile`] that does not depend on the circuit's type.
 #[derive(Debug)]
 pub(crate) struct Lines {
     word: Word,
-    /// The ports that are written: those beside the circuit are not.
+    /// Widths of the ports written; signals beside the circuit are not written.
     widths: Vec<usize>,
     digits: usize,
     buffer: Vec<u8>,
 }
 
 impl Lines {
-    /// None yet, of ports of these widths.
+    /// Begins a stimulus of ports with these widths.
     pub(crate) fn new(widths: Vec<usize>) -> Self {
         let bits = widths.iter().sum::<usize>() + 1;
         Lines {
@@ -126,7 +128,7 @@ impl Lines {
         })
     }
 
-    /// Ends it.
+    /// Ends the line.
     fn end(&mut self, rst: bool, out: &mut dyn Write) -> io::Result<()> {
         self.word.push(rst.into(), 1);
         let digits = (0..self.digits).rev().map(|place| self.word.digit(place));
@@ -153,14 +155,14 @@ impl Lines {
         self.end(rst, out)
     }
 
-    /// Hands everything to the writer.
+    /// Writes everything that is buffered.
     pub(crate) fn finish(&self, out: &mut dyn Write) -> io::Result<()> {
         out.write_all(&self.buffer)?;
         out.flush()
     }
 }
 
-/// Leaves side by side, in storage that is used again.
+/// Leaves side by side, in reused storage.
 #[derive(Debug, Default)]
 struct Word {
     parts: Vec<u64>,
@@ -173,7 +175,7 @@ impl Word {
         self.filled = 0;
     }
 
-    /// Puts `bits`, which has zeros above `width`, on top.
+    /// Appends `bits`, which has zeros above `width`, at the top.
     fn push(&mut self, bits: u64, width: usize) {
         let shift = self.filled % 64;
         match self.parts.last_mut() {
@@ -188,7 +190,7 @@ impl Word {
         self.filled += width;
     }
 
-    /// The hexadecimal digit at `place`, 0 the lowest.
+    /// Returns the hexadecimal digit at `place`; 0 is the lowest.
     fn digit(&self, place: usize) -> u8 {
         let part = self.parts.get(place / 16).copied().unwrap_or(0);
         b"0123456789abcdef"[(part >> (place % 16 * 4) & 15) as usize]

@@ -6,11 +6,11 @@ use super::value::show;
 use crate::hdl::Declaration;
 use std::ops::Range;
 
-/// Draws recorded signals as text, a line a signal, a column a tick.
+/// Draws recorded signals as text, one line per signal and one column per tick.
 ///
-/// Bits are levels (`_` low, `#` high), words show their value where it changes, states by name.
-/// Signals are called by their path below the circuit's name. Words of memories that hold still
-/// in these ticks are left out. Ticks that were not recorded are left out.
+/// Bits are levels (`_` low, `#` high). Words show their value where it changes; states have
+/// names. Signals are named by their path below the circuit's name. Memory words that do not
+/// change in these ticks are left out, and so are ticks that were not recorded.
 ///
 /// ```text
 /// tick     0   1   2   3
@@ -42,7 +42,7 @@ struct Row {
 
 enum Cells {
     Levels(Vec<bool>),
-    /// The text of a value where it is another than the one before.
+    /// Text of each value that differs from the one before.
     Words(Vec<Option<String>>),
 }
 

@@ -1,6 +1,6 @@
 use crate::hdl::{Format, Kind, Shape};
 
-/// The number that the bits of a word mean.
+/// Returns the number that the bits of a word mean.
 pub fn number(shape: Shape, bits: u64) -> i128 {
     match shape.kind {
         Kind::Signed if bits >> (shape.width - 1) & 1 == 1 => i128::from(bits) - (1 << shape.width),
@@ -8,7 +8,7 @@ pub fn number(shape: Shape, bits: u64) -> i128 {
     }
 }
 
-/// A word as text: a state by its name, an address in hex, anything else as a decimal number.
+/// Formats a word as text: a state by name, an address in hex, anything else in decimal.
 pub fn show(shape: Shape, format: Format, bits: u64) -> String {
     match format {
         Format::States(names) => {
@@ -22,9 +22,10 @@ pub fn show(shape: Shape, format: Format, bits: u64) -> String {
     }
 }
 
-/// The bits of a word given as text: a number in decimal, `0x` or `0b`, or a state's name.
+/// Parses a word: a number in decimal, `0x` or `0b`, or a state's name.
 ///
-/// `None` where it is neither or does not fit. A signed word takes hex and binary as bit pattern.
+/// Returns `None` if it is neither or does not fit. A signed word takes hex and binary as a bit
+/// pattern.
 pub fn read(shape: Shape, format: Format, text: &str) -> Option<u64> {
     if let Format::States(names) = format
         && let Some(index) = names.iter().position(|name| *name == text)
@@ -47,7 +48,7 @@ pub fn read(shape: Shape, format: Format, text: &str) -> Option<u64> {
     (number(shape, bits) == wanted).then_some(bits)
 }
 
-/// The greatest pattern of a word.
+/// Returns a mask of all bits of a word.
 pub fn mask(shape: Shape) -> u64 {
     u64::MAX >> (64 - shape.width.clamp(1, 64))
 }

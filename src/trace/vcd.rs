@@ -15,15 +15,15 @@ pub(super) use text::eight_digits;
 
 /// Writes every signal of a run, and `clk`, as a value change dump (IEEE 1364).
 ///
-/// At tick n everything is sampled at time n·P with `clk` high; `clk` falls at n·P + P/2. A
-/// register therefore shows at n + 1 what was decided at n. Registers are `reg`, everything else
-/// `wire`; a signal with named states has beside it a string `<signal>_name`. The words of a
-/// memory stand in a scope of the memory's name. A comment names the ports out. The dump holds no
-/// date: the same run gives the same bytes.
+/// Tick n is sampled at time n·P with `clk` high; `clk` falls at n·P + P/2. A register therefore
+/// shows at n + 1 what was decided at n. Registers are `reg`, everything else is `wire`. A signal
+/// with named states has a string `<signal>_name` beside it. The words of a memory are in a scope
+/// of the memory's name. A comment names the output ports. The dump contains no date: the same run
+/// gives the same bytes.
 ///
-/// It gathers its own large blocks, so the writer needs no buffer. Call
-/// [`finish`](Vcd::finish) after the run; without it the end of the dump is missing. With a second
-/// core to be had, [`VcdBehind`] takes less time.
+/// Output is buffered in large blocks, so the writer needs no buffer. Call [`finish`](Vcd::finish)
+/// after the run; without it the end of the dump is missing. If a second core is free,
+/// [`VcdBehind`] is faster.
 #[derive(Debug)]
 #[must_use]
 pub struct Vcd<W> {
@@ -34,8 +34,8 @@ impl<W: Write> Vcd<W> {
     /// Prepares a dump of `circuit` to `out`.
     ///
     /// # Errors
-    /// A name that is used twice in a scope or cannot be written, a selected path that does not
-    /// exist. Nothing is written to `out` before the run.
+    /// Returns an error if a name is duplicate in a scope or cannot be written, or a selected path
+    /// does not exist. Nothing is written to `out` before the run.
     pub fn new(
         out: W,
         circuit: &impl Described,
@@ -49,10 +49,10 @@ impl<W: Write> Vcd<W> {
         })
     }
 
-    /// Gives the last tick its full length and hands everything to the writer, which it returns.
+    /// Gives the last tick its full length, writes everything and returns the writer.
     ///
     /// # Errors
-    /// The writer failed.
+    /// Returns an error if the writer failed.
     pub fn finish(self) -> io::Result<W> {
         self.dump.finish()
     }
@@ -60,12 +60,12 @@ impl<W: Write> Vcd<W> {
 
 observes!([W: Write] Vcd<W>);
 
-/// [`Vcd`] on two threads: the run finds out what changes, a thread of its own makes text of that
-/// and writes it. The bytes are the same.
+/// [`Vcd`] on two threads: the run finds the changes, another thread formats and writes them. The
+/// bytes are the same.
 ///
-/// What changes is gathered in three sections of about 0.3 MB, more where a tick changes more than
-/// 16,384 signals; the run waits where the thread is slower. Call [`finish`](VcdBehind::finish)
-/// after the run; without it the end of the dump is missing.
+/// Changes are collected in three sections of about 0.3 MB, more if a tick changes more than
+/// 16,384 signals; the run waits if the thread is slower. Call [`finish`](VcdBehind::finish) after
+/// the run; without it the end of the dump is missing.
 #[derive(Debug)]
 #[must_use]
 pub struct VcdBehind<W> {
@@ -76,9 +76,9 @@ impl<W: Write + Send + 'static> VcdBehind<W> {
     /// Prepares a dump of `circuit` to `out` and starts the thread.
     ///
     /// # Errors
-    /// A name that is used twice in a scope or cannot be written or a selected path that does not
-    /// exist, as a [`LayoutError`] within; there is no thread to be had. Nothing is written to
-    /// `out` before the run.
+    /// Returns a [`LayoutError`] inside if a name is duplicate in a scope or cannot be written, or
+    /// a selected path does not exist. Returns an error if no thread can be started. Nothing is
+    /// written to `out` before the run.
     pub fn new(
         out: W,
         circuit: &impl Described,
@@ -96,7 +96,7 @@ impl<W: Write + Send + 'static> VcdBehind<W> {
     /// writer.
     ///
     /// # Errors
-    /// The writer failed.
+    /// Returns an error if the writer failed.
     pub fn finish(self) -> io::Result<W> {
         self.dump.finish()
     }

@@ -1,38 +1,38 @@
-//! Finds out which signals have changed.
+//! Detection of changed signals.
 
 use super::Clock;
 use super::layout::Layout;
 use crate::hdl::LeafView as View;
 use std::io;
 
-/// What stands for the tick before the first: all but words of 64 bits differ from it.
+/// Value before the first tick: all but words of 64 bits differ from it.
 const UNKNOWN: u64 = u64::MAX;
 
-/// A new value.
+/// New value of a leaf.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Change {
-    /// The leaf, by its place in the walk.
+    /// Leaf, by its index in the walk.
     pub leaf: u32,
-    /// Its bits from now on.
+    /// Bits from now on.
     pub bits: u64,
 }
 
-/// Finds out which of the selected signals are not as in the tick before.
+/// Finds the selected signals that differ from the tick before.
 ///
-/// Where it saw that tick, it looks only at what the engine says has changed.
+/// If it saw the tick before, it checks only changes reported by the engine.
 #[derive(Debug)]
 pub(super) struct Walk {
     clock: Clock,
     last: Option<u64>,
-    /// The values of the tick before, in the order of the walk.
+    /// Values of the tick before, in the order of the walk.
     before: Vec<u64>,
-    /// How often every memory had changed in the tick before.
+    /// Write count of each memory in the tick before.
     marks: Vec<u64>,
-    /// The leaves that may have changed.
+    /// Leaves that may have changed.
     touched: Touched,
-    /// Which leaves are wanted, unless all are.
+    /// Selected leaves, unless all are.
     selected: Option<Vec<bool>>,
-    /// What has changed in the tick.
+    /// Changes of the tick.
     changes: Vec<Change>,
 }
 
@@ -53,7 +53,7 @@ impl Walk {
         }
     }
 
-    /// Looks at a settled tick. Returns when `clk` rises and when it falls.
+    /// Compares a settled tick. Returns the times at which `clk` rises and falls.
     pub fn tick(&mut self, tick: u64, view: View<'_>) -> io::Result<(u64, u64)> {
         if self.last.is_some_and(|last| last >= tick) {
             return Err(io::Error::new(
@@ -127,30 +127,30 @@ impl Walk {
         });
     }
 
-    /// What has changed in the tick.
+    /// Returns the changes of the tick.
     pub fn changes(&self) -> &[Change] {
         &self.changes
     }
 
-    /// When the last tick is over, if there was one.
+    /// Returns the end of the last tick, if there was one.
     pub fn end(&self) -> io::Result<Option<u64>> {
         let end = |last: u64| self.clock.rise(last + 1).ok_or_else(too_late);
         self.last.map(end).transpose()
     }
 }
 
-/// Some of the leaves. The words of memories are leaves too, so there can be many, of which few are
-/// in it.
+/// Set of leaves. The words of memories are leaves too, so there can be many, of which few are in
+/// the set.
 #[derive(Debug)]
 struct Touched {
-    /// A bit for each leaf.
+    /// One bit per leaf.
     leaves: Vec<u64>,
-    /// A bit for each word of these that is not 0.
+    /// One bit per word of `leaves` that is not 0.
     words: Vec<u64>,
 }
 
 impl Touched {
-    /// None of so many.
+    /// Creates an empty set for `leaves` leaves.
     fn new(leaves: usize) -> Self {
         let words = leaves.div_ceil(64);
         Touched {
@@ -166,7 +166,7 @@ impl Touched {
         self.words[word / 64] |= 1 << (word % 64);
     }
 
-    /// Empties it, in the order of the walk.
+    /// Empties the set, in the order of the walk.
     #[inline]
     fn take(&mut self, mut see: impl FnMut(usize)) {
         for (place, words) in self.words.iter_mut().enumerate() {
@@ -180,7 +180,7 @@ impl Touched {
     }
 }
 
-/// The places of the bits that are 1, from the lowest on.
+/// Returns the positions of the set bits, from the lowest on.
 fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let place = bits.trailing_zeros();

@@ -9,20 +9,19 @@ use crate::files::AtomicFile;
 use crate::hdl::Described;
 use std::io;
 
-/// A format of waves.
+/// Waveform format.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub enum WaveFormat {
     /// Text that every waveform viewer reads; see [`Vcd`](super::Vcd).
     #[default]
     Vcd,
-    /// GTKWave's own, a fifth to a hundredth of the bytes; see [`Fst`](super::Fst).
+    /// Format of GTKWave, a fifth to a hundredth of the bytes; see [`Fst`](super::Fst).
     Fst,
 }
 
-/// Waves of a run in a format that is chosen while the program runs; a thread formats them and
-/// writes the file.
+/// Waves of a run in a format chosen at run time; a thread formats them and writes the file.
 ///
-/// Where the format is known beforehand, [`VcdBehind`](super::VcdBehind) and [`Fst`](super::Fst)
+/// If the format is known at compile time, [`VcdBehind`](super::VcdBehind) and [`Fst`](super::Fst)
 /// do the same with any writer.
 #[derive(Debug)]
 #[must_use]
@@ -34,8 +33,9 @@ impl WaveFile {
     /// Begins a dump of `circuit` to `file`.
     ///
     /// # Errors
-    /// A name that is used twice in a scope or cannot be written or a selected path that does not
-    /// exist, as a [`LayoutError`](super::LayoutError) within; the file cannot be written.
+    /// Returns a [`LayoutError`](super::LayoutError) inside if a name is duplicate in a scope or
+    /// cannot be written, or a selected path does not exist. Returns an error if the file cannot
+    /// be written.
     pub fn new(
         file: AtomicFile,
         format: WaveFormat,
@@ -57,7 +57,7 @@ impl WaveFile {
     /// file, which is not yet committed.
     ///
     /// # Errors
-    /// The file cannot be written.
+    /// Returns an error if the file cannot be written.
     pub fn finish(self) -> io::Result<AtomicFile> {
         self.dump.finish()
     }
@@ -65,7 +65,7 @@ impl WaveFile {
 
 observes!([] WaveFile);
 
-/// One walk for both, or the circuit would be compiled with each of them.
+/// A single walk for both: otherwise the circuit would be compiled with each of them.
 #[derive(Debug)]
 enum Either {
     Vcd(Behind<VcdFile<AtomicFile>>),

@@ -4,30 +4,30 @@ use crate::trace::PORTS_OUT;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
-/// The widest variable that the reader sees, in bits. Beyond it a wrong number is likelier than a
-/// signal.
+/// Greatest width of a variable that the reader sees, in bits. A larger number is more likely a
+/// mistake than a signal.
 const WIDEST: u64 = 1 << 20;
 
-/// What stands before the values.
+/// Header of a VCD, before the values.
 #[derive(Default)]
 pub(super) struct Header<'a> {
-    /// The codes that are declared.
+    /// Declared codes.
     pub codes: HashMap<&'a [u8], Kind>,
-    /// This crate wrote the file.
+    /// True if this crate wrote the file.
     pub ours: bool,
-    /// Paths of the ports out, where a comment names them.
+    /// Paths of the output ports, if a comment names them.
     pub ports_out: Option<Vec<String>>,
-    /// Text that makes the reader panic or that it misreads: a second `$date` or `$version`, scopes
+    /// Text on which the reader panics or that it misreads: a second `$date` or `$version`, scopes
     /// without a name, variables of no width.
     pub blank: Vec<Range<usize>>,
-    /// Variables among that.
+    /// Number of variables in that text.
     pub without_bits: usize,
 }
 
 pub(super) fn header<'a>(words: &mut Words<'a>) -> Result<Header<'a>, Fault> {
     let mut header = Header::default();
     let mut once = HashSet::new();
-    // For each open scope, if it has a name.
+    // For each open scope: true if it has a name.
     let mut scopes = Vec::new();
     while let Some(name) = words.next() {
         if !name.starts_with(b"$") {
@@ -45,7 +45,7 @@ pub(super) fn header<'a>(words: &mut Words<'a>) -> Result<Header<'a>, Fault> {
             b"$timescale" if again => {
                 return Err(words.fault(name, "stands here again", "one in a file"));
             }
-            // Each program that the file went through may have left its own.
+            // Each program that processed the file may have left its own.
             b"$date" | b"$version" => {
                 header.ours |= name == b"$version" && body.first() == Some(&&b"motion-rtl"[..]);
                 if again {
@@ -82,7 +82,7 @@ pub(super) fn header<'a>(words: &mut Words<'a>) -> Result<Header<'a>, Fault> {
                 }
             }
             b"$enddefinitions" => {
-                // The reader begins with the next line.
+                // The reader continues with the next line.
                 let rest = &words.bytes[words.place..];
                 let end = rest
                     .iter()
@@ -109,7 +109,7 @@ pub(super) fn header<'a>(words: &mut Words<'a>) -> Result<Header<'a>, Fault> {
     Err(words.cut_off("the file ends before $enddefinitions"))
 }
 
-/// Names behind the words that begin a comment of ports out.
+/// Returns the names after the words that begin a comment of output ports.
 fn ports_out(comment: &[&[u8]]) -> Option<Vec<String>> {
     let begin = PORTS_OUT.split(' ').map(str::as_bytes);
     let names = comment.iter().copied();
@@ -118,7 +118,7 @@ fn ports_out(comment: &[&[u8]]) -> Option<Vec<String>> {
     begins.then(|| names.skip(begin.count()).map(name).collect())
 }
 
-/// False for a variable that the reader must not see.
+/// Returns false for a variable that the reader must not see.
 fn variable<'a>(
     words: &Words<'a>,
     line: usize,

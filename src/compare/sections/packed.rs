@@ -1,17 +1,17 @@
-//! Numbers of an FST, and how long packed bytes are unpacked.
+//! Numbers in an FST, and sizes of unpacked data.
 
-/// The most that deflate can make of a byte.
+/// Greatest expansion of a byte by deflate.
 pub const DEFLATE: u64 = 1032;
-/// The most that FastLZ can make of a byte.
+/// Greatest expansion of a byte by FastLZ.
 pub const FAST_LZ: u64 = 256;
 
-/// The eight bytes at this place as a number.
+/// Returns the eight bytes at this position as a number.
 pub fn number(bytes: &[u8], place: usize) -> Option<u64> {
     let end = place.checked_add(8)?;
     Some(u64::from_be_bytes(bytes.get(place..end)?.try_into().ok()?))
 }
 
-/// A number of seven bits a byte, the lowest first; behind it what follows.
+/// Reads a number of seven bits per byte, the lowest first; also returns the bytes after it.
 pub fn varint(bytes: &[u8]) -> Option<(u64, &[u8])> {
     let mut value = 0;
     for (place, byte) in bytes.iter().take(9).enumerate() {
@@ -23,15 +23,16 @@ pub fn varint(bytes: &[u8]) -> Option<(u64, &[u8])> {
     None
 }
 
-/// The same with the sign in the highest bit.
+/// Reads a number of seven bits per byte whose highest bit is the sign; also returns the bytes
+/// after it.
 pub fn signed(bytes: &[u8]) -> Option<(i64, &[u8])> {
     let (value, rest) = varint(bytes)?;
     let unused = 64 - 7 * (bytes.len() - rest.len()) as u32;
     Some(((value << unused) as i64 >> unused, rest))
 }
 
-/// Bytes that are packed by zlib unless that would make them longer; nothing unless they unpack to
-/// the claimed length.
+/// Unpacks bytes that are packed by zlib unless that would make them longer; returns `None` unless
+/// they unpack to the claimed length.
 pub fn zlib(bytes: &[u8], claimed: u64) -> Option<Vec<u8>> {
     if claimed == bytes.len() as u64 {
         return Some(bytes.to_vec());
@@ -41,9 +42,9 @@ pub fn zlib(bytes: &[u8], claimed: u64) -> Option<Vec<u8>> {
     (unpacked.len() == claimed).then_some(unpacked)
 }
 
-/// The length of a block of LZ4 unpacked.
+/// Returns the unpacked length of an LZ4 block.
 pub fn lz4_length(mut rest: &[u8]) -> Option<u64> {
-    /// A length of four bits, with more in the bytes behind it where all are set.
+    /// Reads a length of four bits, continued in the following bytes if all are set.
     fn length(bits: u8, mut rest: &[u8]) -> Option<(u64, &[u8])> {
         let mut length = u64::from(bits);
         let mut more = bits == 15;

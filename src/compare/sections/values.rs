@@ -1,24 +1,24 @@
-//! A section of values: two times, the writer's memory, the first values, the changes and their
-//! places, and last the times.
+//! Check of a section of values: two times, the writer's memory, the first values, the changes and
+//! their positions, and last the times.
 
 use super::Geometry;
 use super::packed::{FAST_LZ, lz4_length, number, signed, varint, zlib};
 
-/// The kind of section whose list of places has signed numbers.
+/// Kind of section whose position list has signed numbers.
 const SIGNED_PLACES: u8 = 8;
-/// A length of a signal, in bits, for which the reader may make room without harm.
+/// Length of a signal in bits that the reader may allocate without harm.
 const SMALL: u64 = 1 << 20;
 
-/// Nothing where a section claims too much.
+/// Returns `None` if a section claims too much.
 pub fn fit(kind: u8, bytes: &[u8], geometry: &Geometry) -> Option<()> {
     let within = |value: u64, most: u64| (value <= most).then_some(());
     let handles = geometry.lengths.len() as u64;
-    // From the end: the table of times.
+    // From the end: the time table.
     let times = bytes.len().checked_sub(24)?;
     let start = usize_of(times, number(bytes, times + 8)?)?;
     let unpacked = zlib(bytes.get(start..times)?, number(bytes, times)?)?;
     within(number(bytes, times + 16)?, unpacked.len() as u64)?;
-    // Before it stands how long the list of places before that is.
+    // Before it: the length of the position list that precedes it.
     let places_end = start.checked_sub(8)?;
     let places_start = usize_of(places_end, number(bytes, places_end)?)?;
     let places = bytes.get(places_start..places_end)?;
@@ -36,12 +36,12 @@ pub fn fit(kind: u8, bytes: &[u8], geometry: &Geometry) -> Option<()> {
     chains(kind, changes, places, count)
 }
 
-/// The place at which bytes begin that end here and have this length.
+/// Returns the position of bytes with this length that end at `end`.
 fn usize_of(end: usize, length: u64) -> Option<usize> {
     end.checked_sub(usize::try_from(length).ok()?)
 }
 
-/// The changes of each signal stand behind the letter of their packing.
+/// Checks the changes of each signal, which follow the letter of their packing.
 fn chains(kind: u8, changes: &[u8], mut places: &[u8], handles: u64) -> Option<()> {
     let (mut signals, mut begin) = (0u64, None::<usize>);
     while !places.is_empty() {
@@ -71,13 +71,13 @@ fn chains(kind: u8, changes: &[u8], mut places: &[u8], handles: u64) -> Option<(
     (signals <= handles).then_some(())
 }
 
-/// One or more signals in the list of places.
+/// Entry of the position list, for one or more signals.
 enum Place {
-    /// So many without a change.
+    /// Number of signals without a change.
     Without(u64),
-    /// One with the changes of another.
+    /// Signal with the changes of another.
     Alias,
-    /// One whose changes begin so many bytes behind those before.
+    /// Signal whose changes begin this number of bytes after the ones before.
     After(u64),
 }
 
@@ -105,14 +105,15 @@ impl Place {
     }
 }
 
-/// The changes of a signal: their length unpacked, 0 where they are not packed, and they.
+/// Checks the changes of a signal: their unpacked length, 0 if they are not packed, and their
+/// bytes.
 fn chain(changes: &[u8], begin: usize, end: usize) -> Option<()> {
     let (unpacked, packed) = varint(changes.get(begin..end)?)?;
     let most = match changes.first()? {
         _ if unpacked == 0 => 0,
         b'4' => lz4_length(packed)?,
         b'F' => (packed.len() as u64).checked_mul(FAST_LZ)?,
-        // The reader makes room as it goes.
+        // The reader allocates as it goes.
         _ => unpacked,
     };
     (unpacked <= most).then_some(())
@@ -130,7 +131,7 @@ mod tests {
             let changes = [b"4", claim, &packed].concat();
             chains(8, &changes, places, handles).is_some()
         };
-        // Behind the letter; one signal without a change before it.
+        // After the letter; one signal without a change before it.
         let places = [1 << 1, 1 << 1 | 1];
         assert!(holds(&[0xac, 0x02], &places, 2));
         assert!(!holds(&[0xad, 0x02], &places, 2));
@@ -143,7 +144,7 @@ mod tests {
             !holds(&[0xac, 0x02], &[200 << 1 & 0x7f | 1], 2),
             "behind the end"
         );
-        // An alias and many without a change, in both kinds of list.
+        // Alias and many signals without a change, in both kinds of list.
         assert!(holds(&[0xac, 0x02], &[3, 0x7f], 2));
         assert!(chains(5, &[b'4', 0, 1], &[3, 0, 1], 2).is_some());
         assert!(chains(5, &[b'4', 0, 1], &[3, 0, 1], 1).is_none());

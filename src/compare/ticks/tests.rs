@@ -10,7 +10,7 @@ fn bit(level: bool) -> Value {
     }
 }
 
-/// A time for each index, the same number.
+/// Returns the ticks, with each time equal to its index.
 fn by(levels: &[(u32, Option<bool>)], gaps: &[Gap]) -> Result<Ticks, Unusable> {
     Ticks::by(levels, &(0..100).collect::<Vec<_>>(), gaps)
 }
@@ -19,7 +19,7 @@ fn ticks(levels: &[(u32, Option<bool>)]) -> Ticks {
     by(levels, &[]).unwrap()
 }
 
-/// The level of each tick from these changes.
+/// Returns the level in each tick from these changes.
 fn sampled(levels: &[(u32, Option<bool>)], changes: &[(u32, bool)]) -> Vec<(u64, bool)> {
     let changes: Vec<_> = changes
         .iter()
@@ -34,7 +34,7 @@ fn sampled(levels: &[(u32, Option<bool>)], changes: &[(u32, bool)]) -> Vec<(u64,
 
 #[test]
 fn every_tick_of_our_own_dumps_is_one() {
-    // High at the start, which is no edge; a fall in every tick and a time behind the last.
+    // High at the start, which is no edge; a fall in every tick and a time after the last.
     assert_eq!(ticks(&[(0, H), (1, L)]).count, 1);
     assert_eq!(
         ticks(&[(0, H), (1, L), (2, H), (3, L), (4, H), (5, L)]).count,
@@ -51,7 +51,7 @@ fn a_tick_that_is_not_over_is_none() {
 
 #[test]
 fn within_a_time_the_last_level_counts() {
-    // An x that is gone at its time, and a pulse without width.
+    // An x that is gone within its time, and a pulse without width.
     assert_eq!(
         ticks(&[(0, None), (0, L), (1, H), (2, L), (3, H), (3, L)]).count,
         2
@@ -87,7 +87,7 @@ fn an_edge_may_come_from_what_was_not_yet_set() {
     assert_eq!(ticks(&[(0, None), (0, H), (3, L), (4, H)]).count, 1);
 }
 
-/// Edges at 2, 4, 6 and so on, switched off in a part of it.
+/// Returns ticks with edges at 2, 4, 6 and so on, switched off in a part.
 fn gapped(off: u64, on: Option<u64>, end: u64) -> Result<Ticks, Unusable> {
     let gap = Gap { from: off, to: on };
     let mut levels = Vec::new();
@@ -108,9 +108,9 @@ fn ticks_without_a_dump_are_counted_by_the_period() {
         for on in off + 1..=16 {
             let ticks = gapped(off, Some(on), 20).unwrap();
             assert_eq!(ticks.count, 10, "{off} to {on}");
-            // Tick n ends at 2n + 2: what has its end in the gap is not known.
+            // Tick n ends at 2n + 2: it is unknown if that is in the gap.
             let unknown = (0..10).filter(|tick| (off..on).contains(&(2 * tick + 2)));
-            // Where the dump is switched on the level is a first one, and no edge.
+            // When the dump is switched on, the level is a first one, and no edge.
             let unknown = unknown.chain((on % 2 == 0).then(|| on / 2 - 1));
             let unknown: Vec<u64> = unknown.collect();
             let known: Vec<u64> = ticks.off.iter().cloned().flatten().collect();
@@ -125,7 +125,7 @@ fn a_dump_that_stays_off_ends_with_the_last_edge_before() {
         let ticks = gapped(off, None, 20).unwrap();
         assert_eq!((ticks.count, ticks.off.len()), ((off - 1) / 2, 0), "{off}");
     }
-    // On again behind the last edge.
+    // On again after the last edge.
     assert_eq!(gapped(15, Some(19), 20).unwrap().count, 7);
     // Off from the start: the first tick is the first in the dump.
     let ticks = gapped(0, Some(9), 20).unwrap();
@@ -141,10 +141,10 @@ fn edges_that_nothing_tells_of_are_an_error() {
     // A period of 2 before, and 7 between: no whole number of periods.
     let clock = [(0, L), (2, H), (3, L), (4, H), (5, None), (9, L), (11, H)];
     assert_eq!(by(&clock, &gap), Err(Unusable::Uncounted(4, 11)));
-    // One edge on either side.
+    // One edge on each side.
     let clock = [(0, L), (4, H), (5, None), (9, L), (12, H)];
     assert_eq!(by(&clock, &gap), Err(Unusable::Uncounted(4, 12)));
-    // The period behind the gap will do.
+    // The period after the gap suffices.
     let clock = [(0, L), (4, H), (5, None), (9, L), (12, H), (13, L), (16, H)];
     assert_eq!(by(&clock, &gap).unwrap().count, 4);
 }
@@ -161,7 +161,7 @@ fn what_changes_with_the_edge_belongs_to_the_tick_that_begins() {
 #[test]
 fn inputs_at_the_falling_edge_belong_to_the_tick_that_the_next_rise_ends() {
     let clock = [(0, H), (1, L), (2, H), (3, L), (4, H), (5, L)];
-    // The value at the fall replaces the one that stood since the rise.
+    // The value at the fall replaces the one since the rise.
     assert_eq!(
         sampled(&clock, &[(0, false), (1, true), (3, false)]),
         [(0, true), (1, false)]

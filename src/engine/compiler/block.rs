@@ -1,4 +1,4 @@
-//! What a block does, in line.
+//! Machine code of a block, inlined into the function.
 
 use super::emit::{Changes, Emitter, Word};
 use crate::engine::flat::mask;
@@ -8,7 +8,7 @@ use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{self, InstBuilder, Type, Value, types};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// A block that settles nets.
+/// Emits a block that settles nets.
 pub(super) fn settle(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
     steps(emitter, plan, block);
     parts(
@@ -17,12 +17,12 @@ pub(super) fn settle(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
         &block.outputs,
         |emitter, &(from, to), changes| {
             let word = clean(emitter, from, 64);
-            emitter.put(to, word, changes);
+            emitter.store_tracked(to, word, changes);
         },
     );
 }
 
-/// A block that makes the edge: registers are put behind all that reads them.
+/// Emits a block that makes the edge: registers are written after everything that reads them.
 pub(super) fn edge(emitter: &mut Emitter<'_>, plan: &Plan, place: usize) {
     let block = &plan.blocks[place];
     steps(emitter, plan, block);
@@ -38,13 +38,13 @@ pub(super) fn edge(emitter: &mut Emitter<'_>, plan: &Plan, place: usize) {
             let word = clean(emitter, from, register.width);
             match register.shadow {
                 Some(shadow) => emitter.store(shadow, word.value),
-                None => emitter.put(register.slot, word, changes),
+                None => emitter.store_tracked(register.slot, word, changes),
             }
         },
     );
 }
 
-/// Takes over the shadows of a block.
+/// Commits the shadows of a block to its registers.
 pub(super) fn commit(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
     parts(
         emitter,
@@ -54,19 +54,19 @@ pub(super) fn commit(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
             let register = &plan.registers[register as usize];
             if let Some(shadow) = register.shadow {
                 let word = clean(emitter, shadow, register.width);
-                emitter.put(register.slot, word, changes);
+                emitter.store_tracked(register.slot, word, changes);
             }
         },
     );
 }
 
-/// Tells if a block is in more than one part.
+/// True if a block is compiled in more than one part.
 fn long(block: &Block, part: usize) -> bool {
     let ends = block.outputs.len() + block.registers.len() + block.writes.len();
     block.steps.len() + ends > part
 }
 
-/// Does something to all of these, and tells whom that changes.
+/// Emits code for all items in parts, and sets the dirty bits of what they change.
 fn parts<T>(
     emitter: &mut Emitter<'_>,
     block: &Block,
@@ -82,7 +82,7 @@ fn parts<T>(
         for one in part {
             each(emitter, one, &mut changes);
         }
-        emitter.tell(changes);
+        emitter.flush(changes);
     }
 }
 
@@ -91,7 +91,7 @@ fn clean(emitter: &mut Emitter<'_>, slot: Slot, width: u8) -> Word {
     emitter.word(slot, width)
 }
 
-/// A port of a memory, with the words that it takes.
+/// Port of a memory, with the words that it reads.
 struct Port<'p> {
     memory: &'p PlannedMemory,
     enable: Value,
@@ -123,7 +123,7 @@ impl<'p> Port<'p> {
         emitter.begin(done);
     }
 
-    /// A word of a RAM, if it is another one and there is one.
+    /// Emits a RAM write, skipped if the address is past the end or the word is unchanged.
     fn word(&self, emitter: &mut Emitter<'_>, address: Value, done: ir::Block) {
         let memory = self.memory;
         let words = emitter.number(memory.words.into());
@@ -138,14 +138,14 @@ impl<'p> Port<'p> {
         self.store(emitter, address);
     }
 
-    /// All stages of a shift register.
+    /// Emits the shift of all stages of a shift register.
     fn shift(&self, emitter: &mut Emitter<'_>, head: Slot, bit: u32) {
         let memory = self.memory;
         let mut changes = Changes::new();
-        let own = emitter.wakes(&[bit]);
+        let own = emitter.bits_of_blocks(&[bit]);
         let one = one(emitter);
-        emitter.note(own, one, &mut changes);
-        emitter.tell(changes);
+        emitter.record(own, one, &mut changes);
+        emitter.flush(changes);
         let before = emitter.load(head);
         let last = emitter.number(u64::from(memory.words).saturating_sub(1));
         let less = emitter.ins().iadd_imm_s(before, -1);
@@ -166,10 +166,10 @@ impl<'p> Port<'p> {
         emitter.store(memory.mark, mark);
         let mut changes = Changes::new();
         let one = one(emitter);
-        emitter.changes(memory.mark, one, &mut changes);
-        let readers = emitter.wakes(&memory.readers);
-        emitter.note(readers, one, &mut changes);
-        emitter.tell(changes);
+        emitter.record_slot(memory.mark, one, &mut changes);
+        let readers = emitter.bits_of_blocks(&memory.readers);
+        emitter.record(readers, one, &mut changes);
+        emitter.flush(changes);
     }
 }
 
@@ -197,7 +197,7 @@ fn steps(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
     }
 }
 
-/// The words of steps that other parts of the block read.
+/// Returns the slots whose words other parts of the block read.
 fn kept(block: &Block, size: usize) -> FxHashSet<Slot> {
     let mut kept = FxHashSet::default();
     if !long(block, size) {
@@ -227,7 +227,7 @@ fn kept(block: &Block, size: usize) -> FxHashSet<Slot> {
     kept
 }
 
-/// What a step makes of its operands, and how many of its bits may be high.
+/// Emits the value of a step; also returns the number of low bits that may be high.
 fn value(emitter: &mut Emitter<'_>, plan: &Plan, step: &Step) -> (Value, u8) {
     let Step {
         code,
@@ -301,7 +301,7 @@ fn value(emitter: &mut Emitter<'_>, plan: &Plan, step: &Step) -> (Value, u8) {
         }
         Code::ShiftRight | Code::Slice if by >= 64 => (emitter.number(0), 0),
         Code::ShiftRight | Code::Slice => {
-            // Bits above those of the operand are seen if they move down to it.
+            // Bits above those of the operand matter if they move down to it.
             if u16::from(by) + u16::from(width) >= u16::from(from) {
                 emitter.clean(a, from);
             }
@@ -357,7 +357,7 @@ fn compare(emitter: &mut Emitter<'_>, how: IntCC, a: Value, b: Value) -> (Value,
     (emitter.ins().uextend(types::I64, value), 1)
 }
 
-/// The kind of words of so many bits, if the machine has one.
+/// Returns the machine type of words of `width` bits, if there is one.
 fn narrow(width: u8) -> Option<Type> {
     match width {
         8 => Some(types::I8),
@@ -367,7 +367,7 @@ fn narrow(width: u8) -> Option<Type> {
     }
 }
 
-/// A word to compare as two's complement: its sign is the highest bit of its kind.
+/// Emits a word for a two's complement comparison: its sign is the highest bit of its type.
 fn signed(emitter: &mut Emitter<'_>, slot: Slot, width: u8) -> Value {
     let word = emitter.word(slot, width);
     match (narrow(width), emitter.constant(slot)) {
@@ -380,7 +380,7 @@ fn signed(emitter: &mut Emitter<'_>, slot: Slot, width: u8) -> Value {
     }
 }
 
-/// The word of a memory, or the stage of a shift register; 0 past its end.
+/// Emits the word of a memory, or the stage of a shift register; 0 past its end.
 fn read(
     emitter: &mut Emitter<'_>,
     memory: &PlannedMemory,

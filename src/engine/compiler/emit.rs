@@ -11,26 +11,26 @@ use cranelift_codegen::ir::{
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
-/// A word in the making.
+/// Word in a machine register.
 #[derive(Clone, Copy)]
 pub(super) struct Word {
     pub value: Value,
-    /// The bits above so many are 0. They may be more than the word has, and those in between
-    /// anything: a mask waits until somebody sees them.
+    /// Number of low bits that may be set; higher bits are 0. It may exceed the width of the word:
+    /// masking is delayed until the upper bits matter.
     pub bits: u8,
     pub width: u8,
 }
 
-/// What changes set: bits in words.
-type Marks = Vec<(Slot, u64)>;
+/// Bits to set, as words of the slab and masks.
+type Bits = Vec<(Slot, u64)>;
 
-/// What has changed, by whom it tells.
-pub(super) type Changes = BTreeMap<Marks, Word>;
+/// Changes of the current block: for each set of bits, a word that is not 0 if they are to be set.
+pub(super) type Changes = BTreeMap<Bits, Word>;
 
-/// Knowledge of a slot: a word, and how long it holds.
+/// Known word of a slot, and its validity.
 #[derive(Clone, Copy, Default)]
 struct Known {
-    /// Since which block, and which part of it.
+    /// Block and part in which the word became known.
     since: (u32, u32),
     word: Option<Word>,
 }
@@ -38,23 +38,23 @@ struct Known {
 pub(super) struct Emitter<'f> {
     cursor: FuncCursor<'f>,
     layout: &'f Layout,
-    /// The blocks that are woken, as bits of the words of `dirty`.
+    /// Woken blocks, as bits of the words of `dirty`; the other blocks always run.
     cold: Vec<u64>,
     base: Value,
     constants: FxHashMap<Slot, u64>,
-    /// Words of slots that hold in the block under way, if their number is that of the block.
+    /// Known words of slots, valid if their epoch is that of the current block.
     known: Vec<Known>,
     epoch: u32,
-    /// The part of the block.
+    /// Current part of the block.
     part: u32,
-    /// How many words a part makes at most.
+    /// Greatest number of words computed in a part.
     pub part_size: usize,
-    /// Whether an offset was asked for that no slab has.
+    /// True if an offset beyond the slab was requested.
     pub outside: bool,
 }
 
 impl<'f> Emitter<'f> {
-    /// One at the beginning of a function, of which it gives the parameters.
+    /// Creates an emitter at the beginning of a function; also returns the function's parameters.
     pub fn new(
         func: &'f mut Function,
         layout: &'f Layout,
@@ -87,19 +87,19 @@ impl<'f> Emitter<'f> {
         self.cursor.ins()
     }
 
-    /// A new block, which goes nowhere yet.
+    /// Creates a block without instructions.
     pub fn block(&mut self) -> Block {
         self.cursor.func.dfg.make_block()
     }
 
-    /// A new block with a word as parameter.
+    /// Creates a block with a word as parameter.
     pub fn block_with(&mut self) -> (Block, Value) {
         let block = self.block();
         let word = self.cursor.func.dfg.append_block_param(block, types::I64);
         (block, word)
     }
 
-    /// Goes on in a block.
+    /// Continues in a block.
     pub fn begin(&mut self, block: Block) {
         self.cursor.func.layout.append_block(block);
         self.cursor.goto_bottom(block);
@@ -117,7 +117,7 @@ impl<'f> Emitter<'f> {
         self.ins().brif(choose, then, &[], other, &[]);
     }
 
-    /// Goes to the block with this number.
+    /// Jumps to the block with this number.
     pub fn branch_to(&mut self, number: Value, blocks: &[Block]) {
         let number = self.ins().ireduce(types::I32, number);
         let dfg = &mut self.cursor.func.dfg;
@@ -133,7 +133,7 @@ impl<'f> Emitter<'f> {
         self.ins().iconst(types::I64, number as i64)
     }
 
-    /// The place of so many words in the slab: the only way to one.
+    /// Returns the byte offset of `words` words in the slab; every access goes through here.
     fn offset(&mut self, slot: Slot, words: u32) -> i32 {
         let end = u64::from(slot) + u64::from(words);
         match i32::try_from(u64::from(slot) * 8) {
@@ -157,7 +157,8 @@ impl<'f> Emitter<'f> {
             .store(MemFlagsData::trusted(), word, base, offset);
     }
 
-    /// A word of a memory of so many. The index is below `words`: see [`Self::bounded`].
+    /// Loads a word of an array of `words` words. The index must be below `words`: see
+    /// [`Self::bounded`].
     pub fn load_of(&mut self, first: Slot, words: u32, index: Value) -> Value {
         let offset = self.offset(first, words);
         let place = self.place(index);
@@ -165,7 +166,7 @@ impl<'f> Emitter<'f> {
             .load(types::I64, MemFlagsData::trusted(), place, offset)
     }
 
-    /// The same.
+    /// Stores a word in an array of `words` words. The index must be below `words`.
     pub fn store_of(&mut self, first: Slot, words: u32, index: Value, word: Value) {
         let offset = self.offset(first, words);
         let place = self.place(index);
@@ -179,7 +180,7 @@ impl<'f> Emitter<'f> {
         self.ins().iadd(base, bytes)
     }
 
-    /// The index, or another one below `words`, of which there is one at least.
+    /// Limits an index to values below `words`, which must be at least 1.
     pub fn bounded(&mut self, index: Value, words: u32) -> Value {
         let last = u64::from(words.saturating_sub(1));
         match words.is_power_of_two() {
@@ -192,13 +193,13 @@ impl<'f> Emitter<'f> {
         }
     }
 
-    /// The bits that a number has too.
+    /// Returns the bitwise and with a number.
     pub fn and(&mut self, word: Value, number: u64) -> Value {
         let number = self.number(number);
         self.ins().band(word, number)
     }
 
-    /// The low bits of a word.
+    /// Returns the low bits of a word.
     pub fn masked(&mut self, word: Value, width: u8) -> Value {
         let narrow = match width {
             8 => types::I8,
@@ -210,18 +211,18 @@ impl<'f> Emitter<'f> {
         self.ins().uextend(types::I64, low)
     }
 
-    /// Nothing is known of any slot any more.
+    /// Forgets the known words of all slots.
     pub fn forget(&mut self) {
         self.epoch += 1;
     }
 
-    /// Another part of the block begins: words are loaded again, so that no more of them are alive
-    /// at once than a part has. Those of steps are to be [stored](Self::keep) before.
+    /// Begins another part of the block: words are loaded again, which limits the number of live
+    /// values. Results of steps must be [stored](Self::keep) before.
     pub fn part(&mut self) {
         self.part += 1;
     }
 
-    /// A slot holds this from here on.
+    /// Records the word that a slot holds from here on.
     pub fn know(&mut self, slot: Slot, word: Word) {
         let since = (self.epoch, self.part);
         if let Some(known) = self.known.get_mut(slot as usize) {
@@ -232,18 +233,18 @@ impl<'f> Emitter<'f> {
         }
     }
 
-    /// Stores what a step has made, for other parts of the block.
+    /// Stores the result of a step for other parts of the block.
     pub fn keep(&mut self, slot: Slot, width: u8) {
         let value = self.clean(slot, width);
         self.store(slot, value);
     }
 
-    /// What a slot of so many bits holds, with anything above them.
+    /// Returns the word of a slot of `width` bits; bits above them are arbitrary.
     pub fn word(&mut self, slot: Slot, width: u8) -> Word {
         let known = self.known.get(slot as usize).copied().unwrap_or_default();
         let known = known.word.map(|word| (known.since, word));
         let word = match (self.constants.get(&slot).copied(), known) {
-            // One slot has a constant for all widths.
+            // One slot holds a constant for all widths.
             (Some(_), Some((since, word))) if since == (self.epoch, self.part) => {
                 return Word { width, ..word };
             }
@@ -267,7 +268,7 @@ impl<'f> Emitter<'f> {
         word
     }
 
-    /// What a slot holds, with zeros above its bits.
+    /// Returns the word of a slot, with zeros above its bits.
     pub fn clean(&mut self, slot: Slot, width: u8) -> Value {
         let word = self.word(slot, width);
         if word.bits <= word.width {
@@ -286,25 +287,25 @@ impl<'f> Emitter<'f> {
         value
     }
 
-    /// The blocks of a word of `dirty` that are woken.
+    /// Returns the woken blocks in a word of `dirty`.
     pub fn cold_of(&self, word: u32) -> u64 {
         self.cold.get(word as usize).copied().unwrap_or(0)
     }
 
-    /// What a slot always holds, if it does.
+    /// Returns the constant of a slot, if it has one.
     pub fn constant(&self, slot: Slot) -> Option<u64> {
         self.constants.get(&slot).copied()
     }
 
-    /// Puts words in their places, and notes whom that tells, if they are other ones.
-    pub fn put(&mut self, slot: Slot, word: Word, changes: &mut Changes) {
-        let marks = self.marks(slot);
-        if !marks.is_empty() {
+    /// Stores a word in its slot, and records the bits to set if it differs from the old one.
+    pub fn store_tracked(&mut self, slot: Slot, word: Word, changes: &mut Changes) {
+        let targets = self.bits_of(slot);
+        if !targets.is_empty() {
             let old = self.word(slot, word.width);
             let value = self.ins().bxor(old.value, word.value);
             let bits = old.bits.max(word.bits);
-            self.note(
-                marks,
+            self.record(
+                targets,
                 Word {
                     value,
                     bits,
@@ -317,18 +318,18 @@ impl<'f> Emitter<'f> {
         self.know(slot, word);
     }
 
-    /// Notes that a slot changes where a word is not 0.
-    pub fn changes(&mut self, slot: Slot, word: Word, changes: &mut Changes) {
-        let marks = self.marks(slot);
-        self.note(marks, word, changes);
+    /// Records that a slot changes if a word is not 0.
+    pub fn record_slot(&mut self, slot: Slot, word: Word, changes: &mut Changes) {
+        let targets = self.bits_of(slot);
+        self.record(targets, word, changes);
     }
 
-    /// Notes that these are to be set where a word is not 0.
-    pub fn note(&mut self, marks: Marks, word: Word, changes: &mut Changes) {
-        if marks.is_empty() {
+    /// Records bits to set if a word is not 0.
+    pub fn record(&mut self, targets: Bits, word: Word, changes: &mut Changes) {
+        if targets.is_empty() {
             return;
         }
-        let word = match changes.get(&marks) {
+        let word = match changes.get(&targets) {
             Some(other) => Word {
                 value: self.ins().bor(other.value, word.value),
                 bits: word.bits.max(other.bits),
@@ -336,23 +337,24 @@ impl<'f> Emitter<'f> {
             },
             None => word,
         };
-        changes.insert(marks, word);
+        changes.insert(targets, word);
     }
 
-    /// Whom it tells that a slot changes, without blocks that run anyway.
-    fn marks(&self, slot: Slot) -> Marks {
+    /// Returns the dirty bits to set when this slot changes, without those of blocks that always
+    /// run.
+    fn bits_of(&self, slot: Slot) -> Bits {
         let layout = self.layout;
         let readers = layout.readers.get(slot as usize).into_iter().flatten();
-        let mut marks = self.woken(readers.copied());
+        let mut targets = self.woken(readers.copied());
         if let Some(Some(change)) = layout.changes.get(slot as usize) {
-            marks.push((change.word, change.mask));
-            marks.push((layout.event, 1));
+            targets.push((change.word, change.mask));
+            targets.push((layout.event, 1));
         }
-        marks
+        targets
     }
 
-    /// Those bits of words of `dirty` whose blocks are woken.
-    pub fn woken(&self, readers: impl Iterator<Item = (Slot, u64)>) -> Marks {
+    /// Returns those bits of words of `dirty` that belong to woken blocks.
+    pub fn woken(&self, readers: impl Iterator<Item = (Slot, u64)>) -> Bits {
         readers
             .filter_map(|(word, bits)| {
                 let number = word.checked_sub(self.layout.dirty)? as usize;
@@ -362,8 +364,8 @@ impl<'f> Emitter<'f> {
             .collect()
     }
 
-    /// The marks that wake these blocks.
-    pub fn wakes(&self, bits: &[u32]) -> Marks {
+    /// Returns the bits that wake these blocks.
+    pub fn bits_of_blocks(&self, bits: &[u32]) -> Bits {
         let mut words: BTreeMap<Slot, u64> = BTreeMap::new();
         for bit in bits {
             *words.entry(self.layout.dirty + bit / 64).or_default() |= 1 << (bit % 64);
@@ -371,11 +373,11 @@ impl<'f> Emitter<'f> {
         self.woken(words.into_iter())
     }
 
-    /// Sets what is noted.
-    pub fn tell(&mut self, changes: Changes) {
+    /// Emits code that sets the recorded bits.
+    pub fn flush(&mut self, changes: Changes) {
         let mut words: BTreeMap<Slot, BTreeMap<u64, Word>> = BTreeMap::new();
-        for (marks, word) in changes {
-            for (slot, bits) in marks {
+        for (targets, word) in changes {
+            for (slot, bits) in targets {
                 let masks = words.entry(slot).or_default();
                 let word = match masks.get(&bits) {
                     Some(other) => Word {
@@ -398,7 +400,7 @@ impl<'f> Emitter<'f> {
         }
     }
 
-    /// The bits where a word is not 0.
+    /// Returns `bits` if a word is not 0, else 0.
     fn spread(&mut self, word: Word, bits: u64) -> Value {
         match word.bits {
             1 if bits == 1 => word.value,

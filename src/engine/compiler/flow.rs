@@ -1,4 +1,5 @@
-//! The function: edges and settlings in a loop, and in each the blocks that are to run.
+//! Control flow of the function: edges and settlings in a loop, and in each the blocks that are
+//! due.
 
 use super::emit::Emitter;
 use super::runs::{is_hot, runs};
@@ -8,7 +9,7 @@ use crate::engine::plan::Plan;
 use cranelift_codegen::ir::{Block, Function, InstBuilder, Value};
 use std::collections::BTreeMap;
 
-/// Writes the function of a plan; see [`super::Code`] for what it takes and gives.
+/// Emits the function of a plan; see [`super::Code`] for its parameters and result.
 pub(super) fn emit(
     plan: &Plan,
     hot: &[bool],
@@ -32,7 +33,7 @@ pub(super) fn emit(
     }
 }
 
-/// Whether every number in a plan is one of something. The slots are looked at where they are used.
+/// Checks that every index in a plan is in range. Slots are checked where they are used.
 fn whole(plan: &Plan) -> Result<(), CompileError> {
     let registers = plan.registers.len();
     let memories = plan.memories.len();
@@ -126,7 +127,7 @@ impl Flow<'_> {
         }
     }
 
-    /// Runs blocks of a word of `dirty` as long as one of them has its bit.
+    /// Emits a loop that runs blocks of a word of `dirty` while one of them has its bit set.
     fn scan(&mut self, slot: Slot, mask: u64, places: &[usize]) {
         let (look, next) = (self.emitter.block(), self.emitter.block());
         self.emitter.jump(look);
@@ -151,7 +152,7 @@ impl Flow<'_> {
         self.emitter.begin(next);
     }
 
-    /// Goes to the block of the lowest bit.
+    /// Emits a jump to the block of the lowest set bit.
     fn dispatch(&mut self, due: Value, places: &[usize]) -> Vec<Block> {
         let targets: Vec<Block> = places.iter().map(|_| self.emitter.block()).collect();
         if let [only] = targets[..] {
@@ -176,7 +177,7 @@ impl Flow<'_> {
 
     fn edge(&mut self) {
         let plan = self.plan;
-        // Whom an edge wakes runs after it.
+        // Blocks woken by an edge run after it.
         let mut due: BTreeMap<u32, Value> = BTreeMap::new();
         let all: Vec<usize> = (plan.settling..plan.blocks.len()).collect();
         for (word, mask, _) in words(plan, &all) {
@@ -253,7 +254,7 @@ impl Flow<'_> {
     }
 }
 
-/// Blocks by the words of `dirty` in which their bits are: word, bits, blocks.
+/// Groups blocks by the word of `dirty` that has their bits: word, mask, blocks.
 fn words(plan: &Plan, blocks: &[usize]) -> Vec<(u32, u64, Vec<usize>)> {
     let mut words: BTreeMap<u32, (u64, Vec<usize>)> = BTreeMap::new();
     for &place in blocks {

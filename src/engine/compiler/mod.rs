@@ -1,7 +1,7 @@
-//! The fast backend: a plan becomes machine code, by [Cranelift](https://cranelift.dev).
+//! Fast backend: compiles a plan to machine code by [Cranelift](https://cranelift.dev).
 //!
-//! The code does what the [interpreter](super::interpreter) does, to the same slab. What is in line
-//! of it, and whether a block has a bit, is up to who compiles: see [`Code::compile`].
+//! The code has the same effect on the slab as the [interpreter](super::interpreter). The caller
+//! chooses which blocks are inlined and always run: see [`Code::compile`].
 
 mod block;
 mod emit;
@@ -21,69 +21,69 @@ use std::ffi::c_void;
 use std::fmt;
 use wasmtime_internal_jit_icache_coherence as coherence;
 
-/// The code of a plan.
+/// Machine code of a plan.
 pub struct Code {
     memory: Mmap,
-    /// How many words a slab has.
+    /// Number of words of a slab.
     words: usize,
     size: usize,
 }
 
-/// Why there is no code.
+/// Reason why a plan cannot be compiled.
 #[derive(Debug, thiserror::Error)]
 pub enum CompileError {
-    /// Cranelift makes no code for this machine.
+    /// Cranelift does not support this machine.
     #[error("no compiler for this machine: {0}")]
     Machine(String),
-    /// The system gives no memory in which code can run.
+    /// The system gives no executable memory.
     #[error("no memory for code")]
     Memory(#[from] std::io::Error),
-    /// Cranelift did not get through it.
+    /// Cranelift failed.
     #[error("compiler: {0}")]
     Cranelift(String),
-    /// The code would ask for so many bytes of the stack.
+    /// The code would need this number of bytes of the stack.
     #[error("the circuit is so large that its code takes {0} bytes of the stack, allowed: {FRAME}")]
     Frame(u32),
-    /// It is not what [`Plan::of`] makes.
+    /// The plan was not made by [`Plan::of`].
     #[error("a plan of which something stands outside of its slab")]
     Plan,
 }
 
-/// What is to be done: `slab`, phase, ticks; gives how many ticks are left.
+/// Compiled function: takes `slab`, phase and ticks; returns the number of ticks left.
 type Entry = unsafe extern "C" fn(*mut u64, u64, u64) -> u64;
 
-/// How many words a part of a block makes: as many may be alive at once, and the compiler's time goes
-/// by their square.
+/// Number of words computed in a part of a block. All may be live at once, and the compile time
+/// grows with the square of that number.
 const PART: usize = 128;
-/// With more steps the registers of the machine are allocated in a single pass: the time of the other
-/// way grows faster than their number.
+/// Number of steps above which machine registers are allocated in a single pass. The time of the
+/// other allocator grows faster than the number of steps.
 const MANY: usize = 8_000;
-/// Bytes of the stack that code may take: a quarter of what a thread has.
+/// Stack bytes that code may use: a quarter of a thread's stack.
 const FRAME: u32 = 512 * 1024;
 
-/// Settles once.
+/// Phase that settles once.
 const SETTLE: u64 = 0;
-/// An edge, and while ticks are left a settling and the next.
+/// Phase that makes an edge, then alternates settlings and edges while ticks are left.
 const EDGE: u64 = 1;
 
 impl Code {
     /// Compiles a plan.
     ///
-    /// Blocks that are `hot` run in every tick, whether woken or not, and are not woken: behind a run
-    /// of such code all blocks are to be [woken](super::layout::Layout::wake) before another backend
-    /// goes on. Everything else in the slab is as the interpreter leaves it, but for the words that
-    /// only the steps of a block use.
+    /// Blocks that are `hot` run in every tick and are not woken. After a run of such code, all
+    /// blocks must be [woken](super::layout::Layout::wake) before another backend continues.
+    /// Everything else in the slab is as the interpreter leaves it, except words that only the
+    /// steps of a block use.
     ///
     /// # Errors
-    /// There is no compiler for this machine, or no memory, or the code takes too much of the stack, or
-    /// the plan is not whole.
+    /// Returns an error if there is no compiler for this machine, no memory, too much stack use,
+    /// or an index out of range in the plan.
     pub fn compile(plan: &Plan, hot: &[bool]) -> Result<Code, CompileError> {
         let steps: usize = plan.blocks.iter().map(|block| block.steps.len()).sum();
         Self::in_parts(plan, hot, PART, steps > MANY)
     }
 
-    /// Blocks are compiled in parts of so many words, the registers of the machine allocated in a
-    /// single pass or with more care.
+    /// Compiles blocks in parts of `part` words; allocates machine registers in a single pass or
+    /// with more effort.
     fn in_parts(
         plan: &Plan,
         hot: &[bool],
@@ -121,7 +121,7 @@ impl Code {
 
     /// Settles the nets of a tick, as [`interpreter::settle`](super::interpreter::settle) does.
     ///
-    /// Nothing is done to a slab of another plan's length.
+    /// Does nothing if the length of the slab is not that of the plan.
     pub fn settle(&self, slab: &mut [u64]) {
         self.run(slab, SETTLE, 1);
     }
@@ -131,8 +131,8 @@ impl Code {
         self.run(slab, EDGE, 0);
     }
 
-    /// Goes on by `ticks`, each an edge and a settling with the ports in as they are; fewer if
-    /// something watched changes: then it ends behind that settling. Gives how many ticks it went.
+    /// Advances by up to `ticks` ticks, each an edge and a settling with constant input ports.
+    /// Stops after the settling in which something watched changes. Returns the number of ticks.
     pub fn advance(&self, slab: &mut [u64], ticks: u64) -> u64 {
         match ticks {
             0 => 0,
@@ -140,7 +140,7 @@ impl Code {
         }
     }
 
-    /// Gives how many of the ticks are left.
+    /// Returns the number of ticks left.
     fn run(&self, slab: &mut [u64], phase: u64, ticks: u64) -> u64 {
         if slab.len() != self.words {
             return ticks;
@@ -165,7 +165,7 @@ impl fmt::Debug for Code {
     }
 }
 
-/// What Cranelift knows of this machine.
+/// Returns Cranelift's settings for this machine.
 fn machine(single_pass: bool) -> Result<OwnedTargetIsa, CompileError> {
     let unknown = |error: &dyn fmt::Display| CompileError::Machine(error.to_string());
     let mut flags = settings::builder();
@@ -180,7 +180,7 @@ fn machine(single_pass: bool) -> Result<OwnedTargetIsa, CompileError> {
                 false => "backtracking",
             },
         ),
-        // Without the calls of the other strategy.
+        // Probes inline; the other strategy makes calls.
         ("enable_probestack", "true"),
         ("probestack_strategy", "inline"),
     ] {
@@ -192,7 +192,7 @@ fn machine(single_pass: bool) -> Result<OwnedTargetIsa, CompileError> {
         .map_err(|error| unknown(&error))
 }
 
-/// The same bytes where they can run.
+/// Copies bytes into executable memory.
 fn executable(bytes: &[u8]) -> Result<Mmap, CompileError> {
     let mut memory = MmapMut::map_anon(bytes.len())?;
     memory.copy_from_slice(bytes);

@@ -1,19 +1,19 @@
-//! In which order blocks run where some of them always do.
+//! Order of blocks if some of them always run.
 
 use crate::engine::layout::Slot;
 use crate::engine::plan::{Code, Plan};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
-/// Blocks one after the other: all of them are hot, or none is.
+/// Consecutive blocks: all of them are hot, or none is.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Run {
     pub hot: bool,
     pub blocks: Vec<usize>,
 }
 
-/// The blocks of a phase in as few runs as are found. A block that another waits for comes before
-/// it, and blocks of a run are in the order of the plan.
+/// Divides the blocks of a phase into few runs. A block comes after those it depends on; the
+/// blocks of a run are in plan order.
 pub(super) fn runs(plan: &Plan, hot: &[bool], phase: Range<usize>) -> Vec<Run> {
     let before = before(plan, phase.clone());
     let from = |first: bool| {
@@ -50,8 +50,8 @@ pub(super) fn is_hot(hot: &[bool], place: usize) -> bool {
     hot.get(place).copied().unwrap_or(false)
 }
 
-/// For each block of a phase those that are to run before it: they drive a net that it reads, or
-/// still read a register or a memory that it makes.
+/// Returns for each block of a phase those that must run before it: they drive a net that it
+/// reads, or still read a register or a memory that it writes.
 fn before(plan: &Plan, phase: Range<usize>) -> Vec<Vec<usize>> {
     let mut before = vec![Vec::new(); phase.len()];
     let mut drivers: FxHashMap<Slot, usize> = FxHashMap::default();

@@ -7,7 +7,7 @@ use super::super::random::{Case, Plain, cases};
 use super::{Code, CompileError, FRAME, PART};
 use proptest::prelude::*;
 
-/// A leaf, or behind them a property, where the slab shows it.
+/// Returns a leaf or, after the leaves, a property, if the slab has it.
 fn leaf(plan: &Plan, slab: &[u64], index: usize) -> Option<u64> {
     let layout = &plan.layout;
     let leaves = layout.leaves.len();
@@ -26,8 +26,8 @@ fn leaf(plan: &Plan, slab: &[u64], index: usize) -> Option<u64> {
     }
 }
 
-/// What both backends are to leave as it is with the other one: all but the words of steps and the
-/// bits of hot blocks.
+/// Returns masks of the bits that both backends must leave equal: all but the words of steps and
+/// the bits of hot blocks.
 fn common(plan: &Plan, hot: &[bool]) -> Vec<u64> {
     let mut masks = vec![u64::MAX; plan.layout.words as usize];
     for (place, block) in plan.blocks.iter().enumerate() {
@@ -55,14 +55,15 @@ fn put(plan: &Plan, slab: &mut [u64], changes: &[(usize, u64)]) {
     }
 }
 
-/// Whoever looked forgets what has changed.
+/// Clears the change marks, as an observer does.
 fn seen(plan: &Plan, slab: &mut [u64]) {
     let layout = &plan.layout;
     slab[layout.event as usize] = 0;
     slab[layout.changed as usize..][..layout.changed_words as usize].fill(0);
 }
 
-/// The interpreter with and without passes, and every node in every tick.
+/// Compares the interpreter, with and without passes, with the evaluation of every node in every
+/// tick.
 fn interpreted(case: &Case) -> Result<(), TestCaseError> {
     let Case { flat, wanted, .. } = case;
     let plans = [flat.clone(), passes::all(flat, wanted)].map(|flat| Plan::of(&flat, wanted));
@@ -94,7 +95,7 @@ fn interpreted(case: &Case) -> Result<(), TestCaseError> {
                     prop_assert_eq!(value, Some(plain.leaf(index)), "leaf {}", index);
                     let before = shown[index].replace(value);
                     let event = slab[plan.layout.event as usize] == 1;
-                    // Nobody is told of properties.
+                    // Properties have no change marks.
                     if index < flat.leaves.len() {
                         prop_assert!(before.is_none_or(|before| before == value) || event);
                     }
@@ -105,7 +106,7 @@ fn interpreted(case: &Case) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// In parts of `part` words.
+/// Compares compiled code, in parts of `part` words, with the interpreter.
 fn compiled(case: &Case, part: usize, single_pass: bool) -> Result<(), TestCaseError> {
     let plan = Plan::of(&case.flat, &case.wanted);
     let code = Code::in_parts(&plan, &case.hot, part, single_pass).expect("it compiles");
@@ -217,7 +218,7 @@ fn a_slab_of_another_length_is_left_alone() {
     assert!(code.size > 0);
 }
 
-/// A circuit of `count` registers that each take a mixture of others, all of them watched.
+/// Returns a circuit of `count` registers that each take a mixture of others, all watched.
 fn registers(count: u32) -> Flat {
     let node = |op, width| Node {
         op,
@@ -260,7 +261,7 @@ fn wide(count: u32) -> Plan {
     Plan::of(&registers(count), &vec![true; count as usize])
 }
 
-/// Nanoseconds in which this thread has run, whatever runs beside it.
+/// Returns the CPU time of this thread in nanoseconds.
 #[cfg(target_os = "linux")]
 fn run_for() -> u64 {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").expect("Linux has it");
@@ -299,7 +300,7 @@ fn code_that_takes_too_much_of_the_stack_is_refused() {
 
 #[test]
 fn a_wide_circuit_runs_on_a_small_stack() {
-    // With one pass its frame is of 32 bytes a register.
+    // With a single pass, its frame has 32 bytes per register.
     for (count, single_pass) in [(2000, false), (200, true)] {
         let plan = wide(count);
         let hot = [true, true];

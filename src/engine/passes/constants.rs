@@ -1,8 +1,8 @@
 use crate::engine::flat::{Flat, Id, Node, Op, mask};
 use crate::engine::value;
 
-/// What can be known without a run is: nodes of constants are constants, and operations of which a
-/// constant leaves nothing to do are gone.
+/// Constant folding: nodes of constants become constants, and operations that a constant makes
+/// trivial are removed.
 pub fn constants(flat: &Flat) -> Flat {
     let roms: Vec<Option<&[u64]>> = flat
         .memories
@@ -18,7 +18,7 @@ pub fn constants(flat: &Flat) -> Flat {
             Simpler::Is(id) => return id,
             Simpler::Op(op) => {
                 let again = Node { op, ..node };
-                // What is left may be simple in its turn.
+                // The result may be simplified further.
                 if let Simpler::Is(id) = simpler(nodes, again, &roms) {
                     return id;
                 }
@@ -32,11 +32,11 @@ pub fn constants(flat: &Flat) -> Flat {
 }
 
 enum Simpler {
-    /// It stays as it is.
+    /// No change.
     Same,
-    /// It is that node.
+    /// Existing node.
     Is(Id),
-    /// It is this instead.
+    /// Other operation.
     Op(Op),
 }
 
@@ -185,7 +185,7 @@ fn simpler(nodes: &[Node], node: Node, roms: &[Option<&[u64]>]) -> Simpler {
     }
 }
 
-/// A word times a number.
+/// Simplifies a product with a constant.
 fn product(a: Id, number: u64) -> Simpler {
     match number {
         0 => Simpler::Op(Op::Constant(0)),

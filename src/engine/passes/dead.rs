@@ -1,8 +1,8 @@
 use crate::engine::flat::{Flat, Place};
 
-/// Nodes that nobody needs are gone. Registers and memories are needed, nets where their leaf is
-/// `wanted`; the place of a leaf that is not is the first node, whatever that is. Properties follow
-/// the leaves in `wanted`.
+/// Removes dead nodes. Registers and memories are live, and nets whose leaf is `wanted`; the place
+/// of an unwanted leaf becomes the first node, whatever that is. Properties follow the leaves in
+/// `wanted`.
 pub fn dead(flat: &Flat, wanted: &[bool]) -> Flat {
     let mut live = vec![false; flat.nodes.len()];
     let wants = |index: usize| wanted.get(index).copied().unwrap_or(false);
@@ -33,7 +33,7 @@ pub fn dead(flat: &Flat, wanted: &[bool]) -> Flat {
     }
     let mut live = live.into_iter();
     flat.rebuild(|nodes, node| {
-        // What is not pushed is asked for by dead nodes only.
+        // Nodes that are not kept have only dead readers.
         if live.next() == Some(true) {
             nodes.push(node);
         }

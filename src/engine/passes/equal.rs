@@ -1,7 +1,7 @@
 use crate::engine::flat::{Flat, Op};
 use rustc_hash::FxHashMap;
 
-/// Nodes that compute the same are one: that of the instance which comes first.
+/// Merges nodes that compute the same; the instance that comes first keeps the node.
 pub fn equal(flat: &Flat) -> Flat {
     let mut known = FxHashMap::default();
     flat.rebuild(|nodes, node| {

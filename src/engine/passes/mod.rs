@@ -1,4 +1,4 @@
-//! What is done with a netlist before it is planned. Each pass gives one that does the same.
+//! Netlist passes before planning. Each returns a netlist with the same behaviour.
 
 mod constants;
 mod dead;
@@ -10,9 +10,9 @@ pub use equal::equal;
 
 use super::flat::Flat;
 
-/// All passes: what is left does the same for whoever looks at the wanted leaves and properties.
+/// Runs all passes; the wanted leaves and properties keep their behaviour.
 ///
-/// A pass can make work for another, but two rounds leave next to nothing of it.
+/// A pass can make work for another, but two rounds leave almost none.
 pub(crate) fn all(flat: &Flat, wanted: &[bool]) -> Flat {
     let once = equal(&constants(flat));
     dead(&equal(&constants(&once)), wanted)

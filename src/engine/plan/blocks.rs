@@ -1,4 +1,4 @@
-//! The steps of a block.
+//! Steps of a block.
 
 use super::planning::Planning;
 use super::{Block, Code, Step, Write};
@@ -14,14 +14,14 @@ impl Planning<'_> {
             instance,
             ..Block::default()
         };
-        let mut making = Making {
+        let mut builder = Builder {
             known: FxHashMap::default(),
             used: 0,
             scratch,
             reads: BTreeSet::new(),
         };
         for &id in nodes {
-            let slot = self.make(id, place, &mut block, &mut making);
+            let slot = self.make(id, place, &mut block, &mut builder);
             if let Some(&to) = self.nets.get(&id) {
                 block.outputs.push((slot, to));
             }
@@ -30,10 +30,10 @@ impl Planning<'_> {
             for number in 0..self.flat.registers.len() {
                 let register = &self.flat.registers[number];
                 if register.instance == instance {
-                    let mut from = self.make(register.next, place, &mut block, &mut making);
+                    let mut from = self.make(register.next, place, &mut block, &mut builder);
                     if matches!(self.flat.node(register.next).op, Op::Register(_)) {
                         // A copy, since that register may be made before this one.
-                        let to = making.scratch(&mut self.layout);
+                        let to = builder.scratch(&mut self.layout);
                         block.steps.push(Step {
                             code: Code::Extend,
                             width: register.width,
@@ -54,7 +54,7 @@ impl Planning<'_> {
                 let memory = &self.flat.memories[number];
                 if memory.instance == instance && memory.port != Port::Rom {
                     let port = memory.port;
-                    let mut of = |id| self.make(id, place, &mut block, &mut making);
+                    let mut of = |id| self.make(id, place, &mut block, &mut builder);
                     let (enable, data, address) = match port {
                         Port::Rom => continue,
                         Port::Ram {
@@ -73,13 +73,13 @@ impl Planning<'_> {
                 }
             }
         }
-        block.reads = making.reads.into_iter().collect();
+        block.reads = builder.reads.into_iter().collect();
         block
     }
 
-    /// Where a node stands for a block; steps that make it are added if it does not yet.
-    fn make(&mut self, id: Id, place: usize, block: &mut Block, making: &mut Making<'_>) -> Slot {
-        if let Some(&slot) = making.known.get(&id) {
+    /// Returns the slot of a node in a block; adds the steps that compute it if necessary.
+    fn make(&mut self, id: Id, place: usize, block: &mut Block, builder: &mut Builder<'_>) -> Slot {
+        if let Some(&slot) = builder.known.get(&id) {
             return slot;
         }
         let node = self.flat.node(id);
@@ -87,17 +87,17 @@ impl Planning<'_> {
             Op::Constant(bits) => self.constant(bits),
             Op::Input(input) => {
                 let slot = self.layout.inputs[input as usize];
-                making.reads.insert(slot);
+                builder.reads.insert(slot);
                 slot
             }
             Op::Register(register) => {
                 let slot = self.registers[register as usize].slot;
-                making.reads.insert(slot);
+                builder.reads.insert(slot);
                 slot
             }
             _ if self.levels.own[id as usize] && self.block_of(id) != place => {
                 let slot = self.nets[&id];
-                making.reads.insert(slot);
+                builder.reads.insert(slot);
                 slot
             }
             op => {
@@ -105,7 +105,7 @@ impl Planning<'_> {
                 let mut from = node.width;
                 let mut by = 0;
                 for (index, operand) in op.operands().enumerate() {
-                    operands[index] = self.make(operand, place, block, making);
+                    operands[index] = self.make(operand, place, block, builder);
                     if index == 0 {
                         from = self.flat.node(operand).width;
                     } else {
@@ -151,7 +151,7 @@ impl Planning<'_> {
                     }
                     Op::Constant(_) | Op::Input(_) | Op::Register(_) => Code::Extend,
                 };
-                let to = making.scratch(&mut self.layout);
+                let to = builder.scratch(&mut self.layout);
                 block.steps.push(Step {
                     code,
                     width: node.width,
@@ -165,21 +165,21 @@ impl Planning<'_> {
                 to
             }
         };
-        making.known.insert(id, slot);
+        builder.known.insert(id, slot);
         slot
     }
 }
 
-/// A block under way.
-struct Making<'s> {
+/// Block under construction.
+struct Builder<'s> {
     known: FxHashMap<Id, Slot>,
-    /// Places for what nobody else reads, which all blocks use.
+    /// Number of scratch slots used, which all blocks share.
     used: usize,
     scratch: &'s mut Vec<Slot>,
     reads: BTreeSet<Slot>,
 }
 
-impl Making<'_> {
+impl Builder<'_> {
     fn scratch(&mut self, layout: &mut Layout) -> Slot {
         if self.used == self.scratch.len() {
             self.scratch.push(layout.take(1));

@@ -1,10 +1,10 @@
-//! Which nodes stand for themselves, in which level each is computed, and in which order blocks run.
+//! Levels: which nodes are stored, in which level each is computed, and the order of blocks.
 
 use crate::engine::flat::{Flat, Id, Op, Port};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Whether a node is computed again by whoever reads it.
+/// True if each reader computes the node again.
 fn is_cheap(op: Op) -> bool {
     matches!(
         op,
@@ -22,12 +22,12 @@ fn is_leaf(op: Op) -> bool {
     matches!(op, Op::Constant(_) | Op::Input(_) | Op::Register(_))
 }
 
-/// In which level each node is computed.
+/// Level in which each node is computed.
 pub(super) struct Levels {
-    /// Whether a node stands for itself: others are leaves or computed where they are read.
+    /// True if a node is stored: others are leaves, or are computed where they are read.
     pub own: Vec<bool>,
     pub level: Vec<u32>,
-    /// The level of the edge.
+    /// Level of the edge.
     pub end: u32,
 }
 
@@ -42,7 +42,7 @@ impl Levels {
             .collect();
         let instance = |id: Id| flat.nodes[id as usize].instance;
         let crossing = |id: Id, other: Id| u32::from(instance(other) != instance(id));
-        // The earliest level.
+        // Earliest level.
         let mut early = vec![0u32; count];
         let mut end = 0;
         let mut stack = Vec::new();
@@ -59,7 +59,7 @@ impl Levels {
             end = end.max(level);
         }
         let end = end + 1;
-        // As late as possible; what is watched is settled before the edge.
+        // Latest possible level; watched nodes are settled before the edge.
         let mut level: Vec<u32> = watched
             .iter()
             .map(|&watched| end - u32::from(watched))
@@ -83,7 +83,7 @@ impl Levels {
                 continue;
             }
             let here = &mut level[id as usize];
-            // The edge that writes a memory reads it first, if both are of one block.
+            // An edge that writes a memory reads it first, if both are in one block.
             if let Op::Read(memory, _) = flat.node(id).op
                 && flat.memories[memory as usize].instance != instance(id)
             {
@@ -99,7 +99,7 @@ impl Levels {
     }
 }
 
-/// Calls `see` for the nodes that stand for themselves and that these are made of.
+/// Calls `see` for the stored nodes on which these depend.
 pub(super) fn through(
     flat: &Flat,
     own: &[bool],
@@ -118,7 +118,7 @@ pub(super) fn through(
     }
 }
 
-/// The blocks in their order, each by level and instance.
+/// Returns the blocks in their order, each as level and instance.
 pub(super) fn order(flat: &Flat, levels: &Levels, reads: &EdgeReads) -> Vec<(u32, u32)> {
     let mut keys = BTreeSet::new();
     for (id, node) in flat.nodes.iter().enumerate() {
@@ -137,7 +137,7 @@ pub(super) fn order(flat: &Flat, levels: &Levels, reads: &EdgeReads) -> Vec<(u32
     let (mut edges, mut order): (Vec<_>, Vec<_>) = keys
         .into_iter()
         .partition(|(level, _)| *level == levels.end);
-    // Of the edges that one first of whose registers the fewest others still read.
+    // Among the edges, the one comes first whose registers the fewest others still read.
     let mut read: BTreeMap<(u32, u32), usize> = BTreeMap::new();
     for (reader, registers) in reads {
         for register in registers {
@@ -161,7 +161,7 @@ pub(super) fn order(flat: &Flat, levels: &Levels, reads: &EdgeReads) -> Vec<(u32
     order
 }
 
-/// The registers that the edge of each instance reads.
+/// Registers that the edge of each instance reads.
 pub(super) type EdgeReads = BTreeMap<u32, BTreeSet<u32>>;
 
 pub(super) fn edge_reads(flat: &Flat, levels: &Levels) -> EdgeReads {

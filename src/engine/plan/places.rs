@@ -1,4 +1,4 @@
-//! Where memories, leaves and properties stand, and who reads what.
+//! Slots of memories, leaves and properties, and their readers.
 
 use super::planning::Planning;
 use super::{Block, Code, Plan, PlannedMemory, bit, wants};
@@ -79,7 +79,7 @@ impl Planning<'_> {
         }
     }
 
-    /// Where leaves and properties stand, and what tells that they have changed.
+    /// Sets the spots of leaves and properties, and their change marks.
     fn spots(&mut self, memories: &[PlannedMemory]) {
         let mut watched: BTreeMap<Slot, Watched> = BTreeMap::new();
         let mut spots = Vec::new();

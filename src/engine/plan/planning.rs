@@ -1,4 +1,4 @@
-//! A plan under way: what gets a place, and in which block it is.
+//! Plan under construction: which nodes get a slot, and in which block they are.
 
 use super::levels::{EdgeReads, Levels, through};
 use super::{Plan, PlannedRegister, bit, wants};
@@ -12,11 +12,11 @@ pub(super) struct Planning<'f> {
     pub levels: &'f Levels,
     pub order: &'f [(u32, u32)],
     pub wanted: &'f [bool],
-    /// The block of each level and instance.
+    /// Block of each level and instance.
     pub place: FxHashMap<(u32, u32), usize>,
     pub settling: usize,
     pub layout: Layout,
-    /// Where nodes stand that others read.
+    /// Slots of nodes that others read.
     pub nets: FxHashMap<Id, Slot>,
     pub constants: BTreeMap<u64, Slot>,
     pub registers: Vec<PlannedRegister>,
@@ -60,7 +60,7 @@ impl<'f> Planning<'f> {
         }
     }
 
-    /// The block of a node that stands for itself.
+    /// Returns the block of a stored node.
     pub fn block_of(&self, id: Id) -> usize {
         let key = (self.levels.level[id as usize], self.flat.node(id).instance);
         self.place[&key]
@@ -83,7 +83,7 @@ impl<'f> Planning<'f> {
         self.finish(blocks)
     }
 
-    /// Which registers are made in a shadow: those that a later edge reads.
+    /// Gives a shadow to each register that a later edge reads.
     fn shadow(&mut self, reads: &EdgeReads) {
         for (owner, registers) in reads {
             let Some(&reader) = self.place.get(&(self.levels.end, *owner)) else {
@@ -100,7 +100,7 @@ impl<'f> Planning<'f> {
         }
     }
 
-    /// Gives nodes a place that others read, or that are wanted.
+    /// Gives slots to nodes that other blocks read, or that are wanted.
     fn store(&mut self) {
         let (flat, levels) = (self.flat, self.levels);
         let mut stored = BTreeSet::new();

@@ -1,15 +1,15 @@
-//! Gates of single wires, made of the nodes of a netlist.
+//! Gates of single wires, made from the nodes of a netlist.
 
 use rustc_hash::FxHashMap;
 use std::ops::Not;
 
-/// A gate's wire, or its inverse.
+/// Output of a gate, or its inverse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Wire(u32);
 
-/// The wire that is always low.
+/// Constant low wire.
 pub const LOW: Wire = Wire(0);
-/// The wire that is always high.
+/// Constant high wire.
 pub const HIGH: Wire = Wire(1);
 
 impl Wire {
@@ -17,17 +17,17 @@ impl Wire {
         Wire((gate as u32) << 1)
     }
 
-    /// The gate that it comes from: an index into [`Gates::gates`].
+    /// Returns the gate that drives the wire: an index into [`Gates::gates`].
     pub fn gate(self) -> usize {
         (self.0 >> 1) as usize
     }
 
-    /// Whether it is the inverse.
+    /// True if the wire is an inverse.
     pub fn is_inverse(self) -> bool {
         self.0 & 1 == 1
     }
 
-    /// The wire where `inverse` is not set, else its inverse.
+    /// Returns the wire, or its inverse if `inverse` is true.
     fn inverted(self, inverse: bool) -> Self {
         Wire(self.0 ^ u32::from(inverse))
     }
@@ -44,23 +44,23 @@ impl Not for Wire {
     }
 }
 
-/// What a gate does.
+/// Function of a gate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Gate {
-    /// Nothing: its wire is low.
+    /// Constant low.
     Low,
-    /// It is a bit of a case.
+    /// Bit of a case.
     Input(u32),
-    /// High where both are.
+    /// High if both inputs are.
     And(Wire, Wire),
-    /// High where one of them is; neither is an inverse.
+    /// High if exactly one input is; neither is an inverse.
     Xor(Wire, Wire),
-    /// The second where the first is high, else the third; first and third are no inverses.
+    /// Second input if the first is high, else the third; first and third are no inverses.
     Mux(Wire, Wire, Wire),
 }
 
 impl Gate {
-    /// The wires it takes.
+    /// Returns the inputs of the gate.
     pub fn operands(self) -> impl Iterator<Item = Wire> {
         let operands = match self {
             Gate::Low | Gate::Input(_) => [None; 3],
@@ -71,16 +71,16 @@ impl Gate {
     }
 }
 
-/// Gates, each behind those that it takes, no two of which do the same.
+/// Gates, each after its inputs, without duplicates.
 #[derive(Debug)]
 pub struct Gates {
-    /// They; the first is [`Gate::Low`].
+    /// Gates; the first is [`Gate::Low`].
     pub gates: Vec<Gate>,
     known: FxHashMap<Gate, usize>,
 }
 
 impl Gates {
-    /// None but the first.
+    /// Returns the first gate only.
     pub fn new() -> Self {
         Gates {
             gates: vec![Gate::Low],
@@ -96,12 +96,12 @@ impl Gates {
         }))
     }
 
-    /// A bit of a case.
+    /// Returns a bit of a case.
     pub fn input(&mut self, bit: u32) -> Wire {
         self.gate(Gate::Input(bit))
     }
 
-    /// High where both are.
+    /// Returns high if both inputs are.
     pub fn and(&mut self, a: Wire, b: Wire) -> Wire {
         let (a, b) = (a.min(b), a.max(b));
         match (a, b) {
@@ -113,12 +113,12 @@ impl Gates {
         }
     }
 
-    /// High where one of them is.
+    /// Returns high if an input is.
     pub fn or(&mut self, a: Wire, b: Wire) -> Wire {
         !self.and(!a, !b)
     }
 
-    /// High where they differ.
+    /// Returns high if the inputs differ.
     pub fn xor(&mut self, a: Wire, b: Wire) -> Wire {
         let inverse = a.is_inverse() != b.is_inverse();
         let (a, b) = (a.plain().min(b.plain()), a.plain().max(b.plain()));
@@ -130,7 +130,7 @@ impl Gates {
         plain.inverted(inverse)
     }
 
-    /// `then` where `choose` is high, else `other`.
+    /// Returns `then` if `choose` is high, else `other`.
     pub fn mux(&mut self, choose: Wire, then: Wire, other: Wire) -> Wire {
         if choose.is_inverse() {
             return self.mux(!choose, other, then);
@@ -156,7 +156,7 @@ impl Gates {
         }
     }
 
-    /// The sum of two words of the same width, and what is carried out of it.
+    /// Returns sum and carry of two words of the same width.
     pub fn add(&mut self, a: &[Wire], b: &[Wire], mut carry: Wire) -> (Vec<Wire>, Wire) {
         let mut sum = Vec::with_capacity(a.len());
         for (&a, &b) in a.iter().zip(b) {
@@ -167,7 +167,7 @@ impl Gates {
         (sum, carry)
     }
 
-    /// The product of two words of the same width, cut to it.
+    /// Returns the product of two words of the same width, cut to that width.
     pub fn multiply(&mut self, a: &[Wire], b: &[Wire]) -> Vec<Wire> {
         let mut product = vec![LOW; a.len()];
         for (low, &bit) in b.iter().enumerate() {
@@ -182,7 +182,7 @@ impl Gates {
         product
     }
 
-    /// High where two words of the same width are the same.
+    /// Returns high if two words of the same width are equal.
     pub fn equal(&mut self, a: &[Wire], b: &[Wire]) -> Wire {
         let mut same = HIGH;
         for (&a, &b) in a.iter().zip(b) {
@@ -192,27 +192,27 @@ impl Gates {
         same
     }
 
-    /// High where a word is a number.
+    /// Returns high if a word equals a number.
     pub fn is(&mut self, word: &[Wire], number: u64) -> Wire {
         let mut is = HIGH;
         for (bit, &wire) in word.iter().enumerate() {
             let wire = wire.inverted(number.checked_shr(bit as u32).unwrap_or(0) & 1 == 0);
             is = self.and(is, wire);
         }
-        // A number that does not fit into the word is none that it can be.
+        // A number wider than the word equals none of its values.
         match number.checked_shr(word.len() as u32).unwrap_or(0) {
             0 => is,
             _ => LOW,
         }
     }
 
-    /// High where the first of two words of the same width is less: where their difference borrows.
+    /// Returns high if the first of two words of the same width is less: their difference borrows.
     pub fn below(&mut self, a: &[Wire], b: &[Wire]) -> Wire {
         let b: Vec<Wire> = b.iter().map(|&wire| !wire).collect();
         !self.add(a, &b, HIGH).1
     }
 
-    /// The word at an address of a table, zero past its end.
+    /// Returns the word at an address of a table; zero past its end.
     pub fn table(&mut self, words: &[u64], address: &[Wire], width: u8) -> Vec<Wire> {
         let bit = |word: u64, bit: u8| if word >> bit & 1 == 1 { HIGH } else { LOW };
         (0..width)
@@ -223,7 +223,7 @@ impl Gates {
             .collect()
     }
 
-    /// The wire at an address of a column, low past its end.
+    /// Returns the wire at an address of a column; low past its end.
     pub fn choose(&mut self, mut column: Vec<Wire>, address: &[Wire]) -> Wire {
         for &bit in address {
             let pairs = column.chunks(2);

@@ -1,26 +1,26 @@
-//! The wires of a netlist's nodes.
+//! Conversion of a netlist's nodes into wires.
 
 use super::NotSliced;
 use super::gates::{Gates, HIGH, LOW, Wire};
 use super::state::State;
 use crate::engine::flat::{Flat, Id, Op, Place, Port};
 
-/// More gates than this are not worth their while.
+/// Greatest number of gates; larger circuits do not pay.
 const MOST: usize = 1 << 22;
 
-/// The wires of a netlist, lowest bit first.
+/// Wires of a netlist, lowest bit first.
 pub struct Lowering<'f> {
     flat: &'f Flat,
-    /// The first bit of each port in.
+    /// First bit of each input port.
     ports: Vec<u32>,
-    /// What it holds, if that is bits of a case too.
+    /// Registers and memories, if they are bits of a case too.
     state: Option<State>,
     pub gates: Gates,
     words: Vec<Vec<Wire>>,
 }
 
-/// The gates of a combinational netlist, and the wires of its leaves that are no ports in, one
-/// behind the other.
+/// Returns the gates of a combinational netlist, and the wires of its leaves that are not input
+/// ports, in order.
 pub fn lowered(flat: &Flat) -> Result<(Gates, Vec<Wire>), NotSliced> {
     let mut lowering = Lowering::of(flat, None, 0, Gates::new())?;
     let mut out = Vec::new();
@@ -34,7 +34,7 @@ pub fn lowered(flat: &Flat) -> Result<(Gates, Vec<Wire>), NotSliced> {
     Ok((lowering.gates, out))
 }
 
-/// A word of zeros with another from bit `low` on.
+/// Shifts a word left by `low` bits, filled with zeros.
 fn moved(word: &[Wire], low: usize, width: usize) -> Vec<Wire> {
     let zeros = std::iter::repeat_n(LOW, low);
     let moved = zeros.chain(word.iter().copied());
@@ -42,7 +42,7 @@ fn moved(word: &[Wire], low: usize, width: usize) -> Vec<Wire> {
     moved.chain(above).take(width).collect()
 }
 
-/// A word from bit `low` up, with `above` above it.
+/// Returns a word from bit `low` up, filled with `above`.
 fn from(word: &[Wire], low: usize, above: Wire, width: usize) -> Vec<Wire> {
     let word = word.iter().copied().skip(low);
     word.chain(std::iter::repeat(above)).take(width).collect()
@@ -52,7 +52,7 @@ fn inverse(word: &[Wire]) -> Vec<Wire> {
     word.iter().map(|&wire| !wire).collect()
 }
 
-/// Where its sign is the other way round, a word is where it is in the order of unsigned ones.
+/// Inverts the sign, which maps two's complement order to unsigned order.
 fn in_order(word: &[Wire]) -> Vec<Wire> {
     let mut word = word.to_vec();
     if let Some(sign) = word.last_mut() {
@@ -62,7 +62,7 @@ fn in_order(word: &[Wire]) -> Vec<Wire> {
 }
 
 impl<'f> Lowering<'f> {
-    /// All nodes; ports in are the bits of a case from `first` on.
+    /// Converts all nodes; input ports are the bits of a case from `first` on.
     pub fn of(
         flat: &'f Flat,
         state: Option<State>,

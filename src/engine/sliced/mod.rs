@@ -1,7 +1,7 @@
-//! Many cases of a combinational netlist, or of a tick of any, side by side: a bit of all of them is one slice, and a gate
-//! works on slices.
+//! Bit-sliced evaluation of a combinational netlist, or of one tick of any netlist, for many cases
+//! at once. A slice is one bit of all cases; a gate works on slices.
 //!
-//! So words may have any width, and what only moves bits costs nothing.
+//! Words may have any width, and operations that only move bits cost nothing.
 
 mod gates;
 mod lower;
@@ -14,6 +14,6 @@ mod transpose;
 pub use steps::{LANES, Run, Sliced, Tick, Ticks};
 use transpose::transpose;
 
-/// It has registers, or memories that are written, that are no case's, or too many gates or bits.
+/// The netlist has state that is not part of a case, or too many gates or bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NotSliced;

@@ -1,21 +1,21 @@
-//! A tick of a circuit as gates: from what it holds and its ports in to what it holds after the edge.
+//! Tick of a circuit as gates: from its state and input ports to the state after the edge.
 
 use super::NotSliced;
 use super::gates::{Gates, HIGH, Wire};
 use super::lower::Lowering;
 use crate::engine::flat::{Flat, Place, Port};
 
-/// The wires of what a circuit holds.
+/// Wires of a circuit's state.
 #[derive(Clone)]
 pub struct State {
-    /// By register.
+    /// Wires of each register.
     pub registers: Vec<Vec<Wire>>,
-    /// By memory and address; none of a ROM.
+    /// Wires of each memory, by address; empty for a ROM.
     pub memories: Vec<Vec<Vec<Wire>>>,
 }
 
 impl State {
-    /// Bits of a case from the lowest up, in the order of the leaves.
+    /// Assigns the bits of a case from the lowest up, in the order of the leaves.
     fn of(flat: &Flat, gates: &mut Gates) -> Self {
         let mut state = State {
             registers: vec![Vec::new(); flat.registers.len()],
@@ -54,7 +54,7 @@ impl State {
     }
 }
 
-/// What a circuit holds, in the order of its leaves.
+/// Returns the state of a circuit, in the order of its leaves.
 fn held(flat: &Flat) -> impl Iterator<Item = Place> + '_ {
     let leaves = &flat.leaves[flat.parts[0]..flat.parts[1]];
     let rom = |place: &Place| match *place {
@@ -64,8 +64,8 @@ fn held(flat: &Flat) -> impl Iterator<Item = Place> + '_ {
     leaves.iter().copied().filter(move |place| !rom(place))
 }
 
-/// The gates of a tick; bit by bit what is held after it, and whether all these properties hold.
-/// Ports in are the bits of a case from `inputs` on.
+/// Returns the gates of a tick, the bits of the state after it, and a wire that is high if all
+/// these properties hold. Input ports are the bits of a case from `inputs` on.
 pub fn tick(
     flat: &Flat,
     properties: &[usize],

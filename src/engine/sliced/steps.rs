@@ -1,4 +1,4 @@
-//! Gates in an order, in which they run.
+//! Gates in execution order.
 
 use super::NotSliced;
 use super::gates::{Gate, Gates, Wire};
@@ -7,25 +7,25 @@ use super::state;
 use super::transpose;
 use crate::engine::Flat;
 
-/// Words of 64 cases in a slice.
+/// Number of 64-bit words of a slice.
 const WORDS: usize = 8;
-/// Cases side by side.
+/// Number of cases evaluated at once.
 pub const LANES: usize = 64 * WORDS;
 
-/// A bit of every case.
+/// One bit of every case.
 type Slice = [u64; WORDS];
 
-/// Which gate a step is, and which of its operands are taken inverted.
+/// Operation of a step, with the inversion of its operands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Code {
     And,
-    /// The second inverted.
+    /// Second operand inverted.
     AndNot,
-    /// Both inverted.
+    /// Both operands inverted.
     Nor,
     Xor,
     Mux,
-    /// The second inverted.
+    /// Second operand inverted.
     MuxNot,
 }
 
@@ -38,30 +38,30 @@ struct Step {
     c: u32,
 }
 
-/// A combinational netlist of which many cases run side by side. A case is a number: the bits of the
-/// ports in, the first in the lowest, at most 64.
+/// Combinational netlist that evaluates many cases at once. A case is a number of at most 64 bits:
+/// the input ports side by side, the first in the lowest bits.
 #[derive(Debug)]
 pub struct Sliced {
     steps: Vec<Step>,
-    /// The bits of a case that are used, and where they stand.
+    /// Used bits of a case, and their slots.
     inputs: Vec<(u32, u32)>,
-    /// Where the bits of the leaves stand, and whether inverted.
+    /// Slots of the leaves' bits, and their inversion.
     out: Vec<(u32, bool)>,
     slots: usize,
 }
 
 impl Sliced {
-    /// That of the leaves of a netlist that are no ports in.
+    /// Converts the leaves of a netlist that are not input ports.
     ///
     /// # Errors
-    /// It has registers or memories that are written, or too many gates.
+    /// Returns an error if the netlist has registers or written memories, or too many gates.
     pub fn of(flat: &Flat) -> Result<Sliced, NotSliced> {
         let (gates, out) = lowered(flat)?;
         Ok(ordered(&gates, &out))
     }
 }
 
-/// Takes one slot for each gate, which another takes over behind its last use.
+/// Assigns a slot to each gate; another gate reuses it after its last use.
 fn ordered(gates: &Gates, out: &[Wire]) -> Sliced {
     const NEVER: usize = usize::MAX;
     let count = gates.gates.len();
@@ -88,7 +88,8 @@ fn ordered(gates: &Gates, out: &[Wire]) -> Sliced {
         if last[index].is_none() {
             continue;
         }
-        // What is used here last makes room for what is made here: a step reads before it writes.
+        // Slots used here for the last time are free for the result: a step reads before it
+        // writes.
         for from in gate.operands().map(Wire::gate) {
             if last[from] == Some(index) {
                 free.push(slots[from]);
@@ -96,7 +97,7 @@ fn ordered(gates: &Gates, out: &[Wire]) -> Sliced {
             }
         }
         if let Gate::Input(bit) = *gate {
-            // A slot of its own: it is set before the first step.
+            // A slot of its own, which is set before the first step.
             slots[index] = sliced.slots as u32;
             sliced.slots += 1;
             sliced.inputs.push((bit, slots[index]));
@@ -116,7 +117,8 @@ fn ordered(gates: &Gates, out: &[Wire]) -> Sliced {
     sliced
 }
 
-/// The step that a gate is, which puts its wire `to` a slot; `at` gives those of its operands.
+/// Returns the step of a gate, which stores its wire in slot `to`; `at` returns the slots of its
+/// operands.
 fn step(gate: Gate, to: u32, at: impl Fn(Wire) -> u32) -> Option<Step> {
     let (code, a, b, c) = match gate {
         Gate::Low | Gate::Input(_) => return None,
@@ -137,20 +139,21 @@ fn step(gate: Gate, to: u32, at: impl Fn(Wire) -> u32) -> Option<Step> {
     Some(Step { code, to, a, b, c })
 }
 
-/// A tick of a circuit of at most 64 bits that it holds and 64 of ports in, of which many cases run
-/// side by side.
+/// Tick of a circuit with at most 64 bits of state and 64 bits of input ports, which evaluates
+/// many cases at once.
 #[derive(Debug)]
 pub struct Tick {
     sliced: Sliced,
-    /// How many bits it holds.
+    /// Number of bits of state.
     bits: usize,
 }
 
 impl Tick {
-    /// That of a netlist, with the properties of it that have these numbers.
+    /// Converts a tick of a netlist, with the given properties.
     ///
     /// # Errors
-    /// It holds more, or has more ports in or too many gates, or there is no such property.
+    /// Returns an error if the state or the input ports have more bits, there are too many gates,
+    /// or there is no such property.
     pub fn of(flat: &Flat, properties: &[usize]) -> Result<Tick, NotSliced> {
         let ports = flat.inputs.iter().map(|&width| u32::from(width));
         if ports.sum::<u32>() > 64 {
@@ -167,7 +170,7 @@ impl Tick {
     }
 }
 
-/// [`LANES`] cases of a tick.
+/// Evaluation of [`LANES`] cases of a tick.
 #[derive(Debug)]
 pub struct Ticks<'t> {
     tick: &'t Tick,
@@ -175,7 +178,7 @@ pub struct Ticks<'t> {
 }
 
 impl<'t> Ticks<'t> {
-    /// None yet.
+    /// Creates an evaluation without cases.
     pub fn new(tick: &'t Tick) -> Self {
         Ticks {
             run: Run::new(&tick.sliced),
@@ -183,9 +186,9 @@ impl<'t> Ticks<'t> {
         }
     }
 
-    /// Runs a tick from each state with each input, at most [`LANES`], both packed in the order of
-    /// their leaves; gives each state after it, and calls `broken` for those where a property does
-    /// not hold.
+    /// Runs one tick from each state with each input, at most [`LANES`], both packed in the order
+    /// of their leaves. Replaces each state by the next one, and calls `broken` with each case
+    /// that violates a property.
     pub fn run(&mut self, states: &mut [u64], inputs: &[u64], mut broken: impl FnMut(usize)) {
         let words = states.len().min(LANES).div_ceil(64);
         for word in 0..words {
@@ -230,7 +233,7 @@ pub struct Run<'s> {
     slices: Vec<Slice>,
 }
 
-/// The bits that tell 64 cases in a row apart.
+/// Bits that number 64 consecutive cases.
 const WITHIN: [u64; 6] = [
     0xaaaa_aaaa_aaaa_aaaa,
     0xcccc_cccc_cccc_cccc,
@@ -241,7 +244,7 @@ const WITHIN: [u64; 6] = [
 ];
 
 impl<'s> Run<'s> {
-    /// None yet.
+    /// Creates an evaluation without cases.
     pub fn new(sliced: &'s Sliced) -> Self {
         Run {
             sliced,
@@ -249,7 +252,7 @@ impl<'s> Run<'s> {
         }
     }
 
-    /// Runs the cases from `first` on, a multiple of [`LANES`].
+    /// Evaluates the cases from `first` on; `first` is a multiple of [`LANES`].
     pub fn run(&mut self, first: u64) {
         for &(bit, slot) in &self.sliced.inputs {
             self.slices[slot as usize] = std::array::from_fn(|word| {
@@ -283,7 +286,8 @@ impl<'s> Run<'s> {
         }
     }
 
-    /// The leaves of 64 cases in a row, each packed like its case; `word` says which 64.
+    /// Returns the leaves of 64 consecutive cases, each packed like its case; `word` selects the
+    /// 64.
     pub fn seen(&self, word: usize) -> [u64; 64] {
         let mut seen = [0; 64];
         for (seen, &wire) in seen.iter_mut().zip(&self.sliced.out) {

@@ -1,4 +1,4 @@
-//! Cases side by side against the meaning of the nodes, case by case.
+//! Bit-sliced cases compared with the evaluation of the nodes, case by case.
 
 use super::{LANES, Run, Sliced, Tick, Ticks, transpose};
 use crate::engine::flat::{Flat, Id, Node, Op, Place, Port, mask};
@@ -6,8 +6,8 @@ use crate::engine::random::{Plain, cases};
 use crate::engine::value;
 use proptest::prelude::*;
 
-/// The same without registers, with at most 63 bits of ports in, and with memories that stay as they
-/// are: what it would be in one tick of an unrolled run.
+/// Returns the netlist without registers, with at most 63 bits of input ports, and with constant
+/// memories: one tick of an unrolled run.
 fn combinational(mut flat: Flat) -> Flat {
     let mut bits = 0;
     let kept = flat.inputs.iter().take_while(|&&width| {
@@ -33,7 +33,7 @@ fn combinational(mut flat: Flat) -> Flat {
     flat
 }
 
-/// Every node of a case, its ports in given packed.
+/// Returns every node of a case whose input ports are packed.
 fn plain(flat: &Flat, case: u64) -> Vec<u64> {
     let mut low = 0;
     let ports = flat.inputs.iter().map(|&width| {
@@ -57,7 +57,7 @@ fn plain(flat: &Flat, case: u64) -> Vec<u64> {
     words
 }
 
-/// Holds what is seen of some nodes against what they are, in all cases from `first` on.
+/// Compares the values of some nodes in all cases from `first` on.
 fn check(flat: &Flat, seen: &[Id], first: u64) {
     let places = seen.iter().map(|&id| Place::Node(id));
     let flat = Flat {
@@ -67,7 +67,7 @@ fn check(flat: &Flat, seen: &[Id], first: u64) {
     };
     let sliced = Sliced::of(&flat).expect("no registers");
     let mut run = Run::new(&sliced);
-    // What an earlier run has left must not matter.
+    // Results of an earlier run must not matter.
     run.run(!first / 2 / LANES as u64 * LANES as u64);
     run.run(first);
     let cases = (0..LANES / 64).flat_map(|word| run.seen(word));
@@ -83,7 +83,7 @@ fn check(flat: &Flat, seen: &[Id], first: u64) {
     }
 }
 
-/// The last nodes of a netlist in groups of at most 64 bits.
+/// Returns the last nodes of a netlist in groups of at most 64 bits.
 fn groups(flat: &Flat) -> Vec<Vec<Id>> {
     let (mut groups, mut bits) = (vec![Vec::new()], 0);
     for id in (0..flat.nodes.len() as Id).rev().take(24) {
@@ -110,8 +110,8 @@ proptest! {
     }
 }
 
-/// The same with at most 64 bits that it holds and 64 of ports in: other registers and ports never
-/// change, other memories are not written.
+/// Returns the netlist with at most 64 bits of state and 64 bits of input ports: other registers
+/// and ports are constant, other memories are not written.
 fn narrow(mut flat: Flat) -> Flat {
     let (mut left, mut kept) = (64, Vec::new());
     let mut room = |bits: usize| {
@@ -159,7 +159,7 @@ fn narrow(mut flat: Flat) -> Flat {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 128, ..ProptestConfig::default() })]
 
-    /// A tick as gates, from states and inputs of a random run, whatever else runs beside it.
+    /// Compares a tick as gates with the nodes, on states and inputs of a random run.
     #[test]
     fn a_tick_of_random_netlists_is_that_of_their_nodes(
         case in cases(true),
@@ -208,7 +208,7 @@ proptest! {
             ticks.run(&mut after, &inputs, |lane| held[lane] = false);
             prop_assert_eq!(&after, &expected);
             prop_assert_eq!(&held, &holds);
-            // Another order, fewer of them: what an earlier run has left must not matter.
+            // Another order, and fewer cases: results of an earlier run must not matter.
             for list in [&mut before, &mut inputs, &mut expected] {
                 list.reverse();
                 list.truncate(list.len().div_ceil(2));
@@ -219,7 +219,7 @@ proptest! {
     }
 }
 
-/// Every operation on words of `width` bits.
+/// Returns every operation on words of `width` bits.
 fn operations(width: u8) -> Flat {
     let mut flat = Flat {
         inputs: vec![width, width, 1],

@@ -1,4 +1,4 @@
-/// Turns 64 words over: bit i of word k becomes bit k of word i.
+/// Transposes 64 words: bit i of word k becomes bit k of word i.
 #[inline]
 pub fn transpose(words: &mut [u64; 64]) {
     let mut by = 32;

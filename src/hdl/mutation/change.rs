@@ -1,4 +1,4 @@
-//! A fault put into a module.
+//! Insertion of a fault into a module.
 
 use super::{Change, Mutation, Place, find};
 use crate::hdl::build::{Builder, masked};
@@ -7,7 +7,7 @@ use crate::hdl::netlist::{Id, Module, Node, Operator, Port};
 use crate::hdl::record::{BIT, Site};
 use crate::hdl::{Kind, Role, Shape};
 
-/// Puts it in; says whether it has a place there.
+/// Inserts the fault; returns false if it has no place in this module.
 pub(super) fn put(
     mutation: &Mutation,
     builder: &mut Builder,
@@ -83,20 +83,20 @@ pub(super) fn put(
     }
 }
 
-/// A new node at the end.
+/// Adds a node at the end.
 fn add(builder: &mut Builder, node: Node, shape: Shape, site: Site) -> Id {
     builder.nodes.push((node, shape));
     builder.sites.push(site);
     builder.nodes.len() - 1
 }
 
-/// A new constant there.
+/// Adds a constant at the end.
 fn constant(builder: &mut Builder, value: u64, shape: Shape) -> Id {
     let site = builder.site();
     add(builder, Node::Constant(value), shape, site)
 }
 
-/// The nodes made anew, with another one in place of `at`.
+/// Rebuilds the nodes with another one in place of `at`.
 fn rebuild(builder: &mut Builder, nets: &mut Nets, at: Id, change: Change) -> bool {
     let old = std::mem::take(&mut builder.nodes);
     let sites = std::mem::take(&mut builder.sites);
@@ -115,7 +115,7 @@ fn rebuild(builder: &mut Builder, nets: &mut Nets, at: Id, change: Change) -> bo
     done
 }
 
-/// What stands in place of a node, of which the operands are there already.
+/// Returns the replacement of a node whose operands exist already.
 fn other(
     builder: &mut Builder,
     (node, shape, site): (Node, Shape, Site),
@@ -183,7 +183,7 @@ fn other(
     Some(make(builder, node, shape))
 }
 
-/// Everything that names nodes.
+/// Renumbers everything that refers to nodes.
 fn renumber(builder: &mut Builder, nets: &mut Nets, map: &[Id]) {
     for signal in &mut builder.signals {
         signal.driver = signal.driver.map(|id| map[id]);

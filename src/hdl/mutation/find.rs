@@ -1,4 +1,4 @@
-//! The faults that there are.
+//! Search for the possible faults of a module.
 
 use super::{Change, Mutation, Place};
 use crate::hdl::build::{Builder, Instance};
@@ -7,7 +7,7 @@ use crate::hdl::netlist::{Id, Module, Node, Operator, Port, Register, live};
 use crate::hdl::{Kind, Role};
 use std::collections::HashMap;
 
-/// All faults of a module.
+/// Returns all faults of a module.
 pub(super) fn all(
     circuit: &str,
     builder: &Builder,
@@ -69,7 +69,7 @@ pub(super) fn all(
     found
 }
 
-/// The ports in of a part.
+/// Returns the input ports of a part.
 pub(super) fn ports<'m>(
     part: &Instance,
     modules: &'m [Module],
@@ -79,7 +79,7 @@ pub(super) fn ports<'m>(
     inputs.map(|input| input.name.as_str())
 }
 
-/// Which nodes drive something.
+/// Returns for each node if it drives something.
 fn driving(builder: &Builder, nets: &Nets) -> Vec<bool> {
     let drivers = builder.signals.iter().filter_map(|signal| signal.driver);
     let memories = builder.memories.iter();
@@ -90,7 +90,7 @@ fn driving(builder: &Builder, nets: &Nets) -> Vec<bool> {
     live(&builder.nodes, drivers.chain(memories).chain(others))
 }
 
-/// Where each node is.
+/// Returns the place of each node.
 pub(super) fn places(builder: &Builder) -> Vec<Place> {
     let mut counts = HashMap::new();
     let nodes = builder.nodes.iter().zip(&builder.sites);
@@ -138,7 +138,7 @@ fn kind(node: Node) -> &'static str {
     }
 }
 
-/// What can be wrong with a node.
+/// Returns the possible faults of a node.
 fn of_node(builder: &Builder, id: Id) -> Vec<Change> {
     let (node, _) = builder.nodes[id];
     let constant = |id: Id| matches!(builder.nodes[id].0, Node::Constant(_));
@@ -157,7 +157,7 @@ fn of_node(builder: &Builder, id: Id) -> Vec<Change> {
         },
         Node::Mux(_, then, other) => {
             let mut changes = vec![Change::Then, Change::Otherwise];
-            // Where the next choice takes the same, its order makes no difference.
+            // If the next choice takes the same word, the order makes no difference.
             if let Node::Mux(_, next, _) = builder.nodes[other].0
                 && next != then
             {

@@ -5,7 +5,7 @@ use crate::hdl::prelude::*;
 use crate::hdl::{Model, Moment, Property, model};
 use expect_test::expect;
 
-/// Adds up what it is given, to a limit, and starts again at `clear`.
+/// Adds up its input to a limit, and starts again at `clear`.
 #[derive(Debug, Clone)]
 struct Sum {
     width: usize,
@@ -14,13 +14,13 @@ struct Sum {
 signals! { for Sum as c;
     /// Ports in.
     pub struct In {
-        /// Starts again.
+        /// Starts the sum again.
         clear: Bit,
-        /// Adds.
+        /// Adds `by`.
         add: Bit,
-        /// What is added.
+        /// Summand.
         by: I(c.width),
-        /// What the sum does not pass.
+        /// Greatest sum.
         limit: I(c.width),
     }
     /// Registers.
@@ -30,7 +30,7 @@ signals! { for Sum as c;
     }
     /// Nets.
     pub struct Net {
-        /// It would pass the limit.
+        /// High if the sum would pass the limit.
         pub over: Bit,
     }
 }
@@ -63,7 +63,7 @@ fn all(circuit: &Sum) -> Vec<Mutation> {
     mutations("adder", || model(circuit)).1
 }
 
-/// The registers after each tick, and the net in it.
+/// Returns the registers after each tick, and the net in it.
 fn run(model: &Model, inputs: &[[i64; 4]]) -> Vec<(i64, u64)> {
     let mut engine = model.engine(Watch::All);
     let mut seen = Vec::new();
@@ -78,7 +78,8 @@ fn run(model: &Model, inputs: &[[i64; 4]]) -> Vec<(i64, u64)> {
     seen
 }
 
-/// Ports in, tick by tick: sums of either sign, a limit that is met, a `clear` that comes with `add`.
+/// Input ports, tick by tick: sums of either sign, a limit that is met, a `clear` that comes with
+/// `add`.
 const INPUTS: [[i64; 4]; 8] = [
     [0, 1, 3, 7],
     [0, 1, -6, 7],
@@ -90,7 +91,7 @@ const INPUTS: [[i64; 4]; 8] = [
     [0, 1, 2, -3],
 ];
 
-/// The same on numbers.
+/// Runs the model of the circuit on numbers.
 fn steps(step: impl Fn(i64, [i64; 4]) -> (i64, bool)) -> Vec<(i64, u64)> {
     let mut sum = 2;
     let steps = INPUTS.map(|inputs| {
@@ -102,7 +103,7 @@ fn steps(step: impl Fn(i64, [i64; 4]) -> (i64, bool)) -> Vec<(i64, u64)> {
     steps.into()
 }
 
-/// What a tick makes of a sum, and of whether it passes the limit.
+/// Returns the next sum, and whether it passes the limit.
 fn limited(next: i64, over: bool, sum: i64, [clear, add, _, limit]: [i64; 4]) -> (i64, bool) {
     let added = if over { limit } else { next };
     let then = if add == 1 { added } else { sum };
@@ -136,13 +137,13 @@ fn every_fault_of_a_circuit_is_listed() {
     .assert_eq(&(faults.join("\n") + "\n"));
 }
 
-/// A fault without its file.
+/// Returns the text of a fault without its file.
 fn short(fault: &Mutation) -> String {
     let text = fault.to_string();
     text.replace("src/hdl/mutation/tests.rs:", "")
 }
 
-/// A circuit with a fault, by the end of the fault's text.
+/// Returns a circuit with the fault whose text ends so.
 fn faulty(circuit: &Sum, fault: &str) -> Model {
     let all = all(circuit);
     let mut those = all

@@ -1,4 +1,4 @@
-//! A circuit as modules of nodes.
+//! Netlist of a circuit: modules of nodes.
 
 mod module;
 mod modules;

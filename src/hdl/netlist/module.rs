@@ -1,59 +1,57 @@
 use super::node::{Id, Node};
 use crate::hdl::{Field, Role, Shape};
 
-/// One circuit as a netlist: its signals, what drives them, and the circuits inside it.
+/// Netlist of one circuit: its signals, their drivers, and the circuits inside it.
 ///
-/// Two of the same circuit that differ in nothing but the contents of memories and the values of
-/// parameters are one.
+/// Two modules that differ only in memory contents and parameter values are one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Module {
-    /// The circuit's name.
+    /// Name of the circuit.
     pub name: String,
-    /// What it does, in one line.
+    /// One-line description.
     pub about: &'static str,
-    /// The nodes; each is computed from nodes before it.
+    /// Nodes; each is computed from nodes before it.
     pub nodes: Vec<(Node, Shape)>,
-    /// Inputs, registers and nets, in the order of their declaration, with the registers of the
-    /// circuits inside.
+    /// Inputs, registers and nets in declaration order, with the registers of the circuits inside.
     pub signals: Vec<Signal>,
-    /// Its parameters; those of the circuits inside it are not among them.
+    /// Parameters, without those of the circuits inside.
     pub parameters: Vec<Parameter>,
-    /// Its memories, in the same order, then its ROMs.
+    /// Memories in declaration order, then ROMs.
     pub memories: Vec<Memory>,
-    /// What holds of it.
+    /// Properties.
     pub assertions: Vec<Assertion>,
-    /// The circuits inside it, in the order in which they settle.
+    /// Circuits inside, in the order in which they settle.
     pub instances: Vec<Child>,
     pub(crate) registers: Vec<Register>,
-    /// For every leaf of the walk over the nets the signal, if it is not one of an instance.
+    /// Signal of each leaf of the walk over the nets, unless it belongs to an instance.
     pub(crate) nets: Vec<Option<usize>>,
-    /// For every leaf of that walk the node that it shows.
+    /// Node of each leaf of the walk over the nets.
     pub(crate) net_nodes: Vec<Id>,
-    /// For every memory that belongs to an instance, the instance and the memory there.
+    /// Owner of each memory that belongs to an instance: the instance, and the memory inside it.
     pub(crate) owners: Vec<Option<(usize, usize)>>,
 }
 
-/// A signal of a module.
+/// Signal of a module.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Signal {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// What `signals!` says of it.
+    /// Declaration in `signals!`.
     pub field: &'static Field,
-    /// Port in, register or net.
+    /// Input port, register or net.
     pub role: Role,
     /// Kind and width.
     pub shape: Shape,
     /// Power-on value of a register.
     pub power_on: u64,
-    /// What drives a net or, at the edge, a register.
+    /// Driver of a net; for a register, its value after the edge.
     pub driver: Option<Id>,
-    /// For the register of an instance: the instance, and the signal there.
+    /// Owner of an instance's register: the instance, and the signal inside it.
     pub owner: Option<(usize, usize)>,
 }
 
 impl Module {
-    /// Its ports in, in their order.
+    /// Returns the input ports, in their order.
     pub fn inputs(&self) -> impl Iterator<Item = &Signal> {
         let inputs = self.signals.iter();
         inputs.filter(|signal| signal.role == Role::Input && signal.owner.is_none())
@@ -61,42 +59,42 @@ impl Module {
 }
 
 impl Signal {
-    /// Whether it is a port.
+    /// True if the signal is a port.
     pub fn is_port(&self) -> bool {
         self.owner.is_none() && (self.role == Role::Input || self.field.public)
     }
 }
 
-/// A parameter of a module; its value belongs to the instance.
+/// Parameter of a module; its value belongs to the instance.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Parameter {
-    /// Its name.
+    /// Name.
     pub name: &'static str,
     /// Width in bits.
     pub width: usize,
 }
 
-/// A memory of a module.
+/// Memory of a module.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Memory {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// What `signals!` says of it; nothing of a ROM.
+    /// Doc comment from `signals!`; empty for a ROM.
     pub doc: &'static str,
-    /// The number of words.
+    /// Number of words.
     pub words: usize,
     /// Width of a word in bits.
     pub width: usize,
-    /// How it is written.
+    /// Write port.
     pub port: Port,
-    /// Whether a word is other than zero at power-on, in any instance.
+    /// True if a word is not zero at power-on, in any instance.
     pub filled: bool,
-    /// Whether it belongs to an instance.
+    /// True if the memory belongs to an instance.
     pub inner: bool,
 }
 
 impl Memory {
-    /// What Verilog calls after it: loops over its words.
+    /// Returns the names that Verilog derives from the memory: loops over its words.
     pub(crate) fn loops(&self) -> impl Iterator<Item = String> {
         let zeros = (!self.filled).then_some("word");
         let shift: &[&str] = match self.port {
@@ -108,45 +106,45 @@ impl Memory {
     }
 }
 
-/// A property of a module.
+/// Property of a module.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assertion {
-    /// What holds.
+    /// Statement of the property.
     pub name: &'static str,
-    /// The signals at fault where it does not.
+    /// Signals at fault if the property is violated.
     pub signals: &'static [&'static str],
-    /// Whether it looks at the tick before: at the registers that an edge made, and by
-    /// [`Node::Past`] at everything before that edge.
+    /// True if the property spans an edge: it reads the registers after the edge, and through
+    /// [`Node::Past`] everything before it.
     pub step: bool,
-    /// High where it holds.
+    /// Node that is high if the property holds.
     pub holds: Id,
 }
 
-/// How a memory is written, by nodes that are called so.
+/// Write port of a memory; `I` identifies a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Port<I = Id> {
-    /// Never.
+    /// No writes.
     Rom,
-    /// A word at an address.
+    /// Writes one word at an address.
     Ram {
-        /// Where this is high.
+        /// Write enable.
         enable: I,
-        /// The address.
+        /// Address.
         address: I,
-        /// The word.
+        /// Word to write.
         data: I,
     },
-    /// All words move up by one place.
+    /// Moves all words up by one place.
     Shift {
-        /// Where this is high.
+        /// Shift enable.
         enable: I,
-        /// The new first word.
+        /// New first word.
         data: I,
     },
 }
 
 impl<I> Port<I> {
-    /// The nodes that it takes: enable, data, address.
+    /// Returns the nodes that the port reads: enable, data, address.
     pub fn operands(self) -> impl Iterator<Item = I> {
         let operands = match self {
             Port::Rom => [None, None, None],
@@ -160,7 +158,7 @@ impl<I> Port<I> {
         operands.into_iter().flatten()
     }
 
-    /// The same of other nodes.
+    /// Returns the port with each node mapped by `to`.
     pub fn map<J>(self, mut to: impl FnMut(I) -> J) -> Port<J> {
         match self {
             Port::Rom => Port::Rom,
@@ -181,51 +179,51 @@ impl<I> Port<I> {
     }
 }
 
-/// A circuit inside a module.
+/// Circuit inside a module.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Child {
-    /// Its name: that of its fields in the surrounding circuit.
+    /// Instance name: the path of its field in the surrounding circuit.
     pub name: String,
-    /// Its module: an index into [`Design::modules`].
+    /// Index of its module in [`Design::modules`].
     pub module: usize,
-    /// What drives its inputs, in their order.
+    /// Drivers of its inputs, in port order.
     pub inputs: Vec<Id>,
 }
 
-/// What a leaf of the walk over the registers is.
+/// Target of a leaf of the walk over the registers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Register {
-    /// A flip-flop: the signal.
+    /// Flip-flop: index of its signal.
     Signal(usize),
-    /// A memory.
+    /// Memory: its index.
     Memory(usize),
 }
 
-/// What instances of one module may differ in.
+/// Property in which instances of one module may differ.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Setting {
-    /// The instances around it, outermost first, and its name.
+    /// Instance path, outermost first, and name of the setting.
     pub path: Vec<String>,
     /// Width in bits of the value or of a word.
     pub width: usize,
-    /// What it is set to.
+    /// Value of the setting.
     pub value: Value,
 }
 
-/// What a setting is set to.
+/// Value of a setting.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Value {
-    /// The value of a parameter.
+    /// Value of a parameter.
     Number(u64),
-    /// The words of a memory at power-on, of one that is not zero.
+    /// Power-on words of a memory that is not all zero.
     Words(Vec<u64>),
 }
 
-/// A circuit with the circuits inside it.
+/// Circuit with the circuits inside it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Design {
-    /// The modules: each after those inside it, the circuit itself last.
+    /// Modules, each after those inside it; the circuit itself is last.
     pub modules: Vec<Module>,
-    /// Its parameters and the contents of its memories, and those of the circuits inside it.
+    /// Parameters and memory contents of the circuit and of those inside it.
     pub settings: Vec<Setting>,
 }

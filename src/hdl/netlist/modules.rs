@@ -1,11 +1,11 @@
-//! What is asked of modules.
+//! Queries on modules.
 
 use super::module::{Module, Register};
 use super::node::{BIT, Id, Node};
 use crate::hdl::Shape;
 
 impl Module {
-    /// The nodes that something is driven by: nets, registers, memories, inputs of instances.
+    /// Returns the nodes that drive nets, registers, memories and inputs of instances.
     pub fn roots(&self) -> impl Iterator<Item = Id> + '_ {
         let signals = self.signals.iter().filter_map(|signal| signal.driver);
         let memories = self.memories.iter();
@@ -14,12 +14,12 @@ impl Module {
         signals.chain(memories).chain(inputs.copied())
     }
 
-    /// Which nodes are used.
+    /// Returns for each node if it is used.
     pub fn live(&self) -> Vec<bool> {
         live(&self.nodes, self.roots())
     }
 
-    /// What is read of instances that is no port of theirs: the instance, and the signal.
+    /// Returns the signals read from instances that are not ports: the instance, and the signal.
     pub(crate) fn hidden(&self, modules: &[Module]) -> Vec<(usize, String)> {
         let mut hidden = Vec::new();
         let live = self.live();
@@ -55,46 +55,46 @@ impl Module {
         hidden
     }
 
-    /// Kind and width of leaf `leaf` of the walk over the nets.
+    /// Returns kind and width of leaf `leaf` of the walk over the nets.
     pub(crate) fn net_shape(&self, leaf: usize) -> Shape {
         let node = self.net_nodes.get(leaf).and_then(|id| self.nodes.get(*id));
         node.map_or(BIT, |(_, shape)| *shape)
     }
 
-    /// The node that leaf `leaf` of the walk over the nets shows.
+    /// Returns the node that leaf `leaf` of the walk over the nets shows.
     pub(crate) fn net_node(&self, leaf: usize) -> Option<Id> {
         self.net_nodes.get(leaf).copied()
     }
 
-    /// How many leaves the walk over the nets has.
+    /// Returns the number of leaves of the walk over the nets.
     pub(crate) fn net_leaves(&self) -> usize {
         self.net_nodes.len()
     }
 
-    /// How many of them are its own: they come after those of the instances.
+    /// Returns the number of own leaves in that walk; they come after those of the instances.
     pub(crate) fn own_nets(&self, modules: &[Module]) -> usize {
         let instances = self.instances.iter();
         let inner = instances.map(|child| child.inputs.len() + modules[child.module].net_leaves());
         self.net_leaves() - inner.sum::<usize>()
     }
 
-    /// The leaves of the walk over the registers; a memory is one.
+    /// Returns the leaves of the walk over the registers; a memory is one leaf.
     pub(crate) fn register_leaves(&self) -> impl Iterator<Item = Register> + '_ {
         self.registers.iter().copied()
     }
 
-    /// The instance that a memory belongs to, and which one it is there.
+    /// Returns the owner of a memory: the instance, and the memory inside it.
     pub(crate) fn memory_owner(&self, memory: usize) -> Option<(usize, usize)> {
         self.owners.get(memory).copied().flatten()
     }
 
-    /// The net that leaf `leaf` of the walk over the nets is.
+    /// Returns the net of leaf `leaf` of the walk over the nets.
     pub fn net(&self, leaf: usize) -> Option<usize> {
         self.nets.get(leaf).copied().flatten()
     }
 }
 
-/// Which of some nodes are used, by these and by those that they are computed from.
+/// Returns for each node if the roots need it, directly or through other nodes.
 pub(crate) fn live(nodes: &[(Node, Shape)], roots: impl Iterator<Item = Id>) -> Vec<bool> {
     let mut live = vec![false; nodes.len()];
     for root in roots {
@@ -110,7 +110,7 @@ pub(crate) fn live(nodes: &[(Node, Shape)], roots: impl Iterator<Item = Id>) -> 
     live
 }
 
-/// Adds a module, unless the same is there; another of the same circuit gets a number.
+/// Adds a module unless an equal one exists; another module of the same circuit gets a number.
 pub(crate) fn enter(mut module: Module, modules: &mut Vec<Module>) -> usize {
     let circuit = module.name.clone();
     let filled: Vec<bool> = module.memories.iter().map(|memory| memory.filled).collect();

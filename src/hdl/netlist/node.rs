@@ -1,51 +1,52 @@
 use crate::hdl::{Kind, Shape};
 
-/// A node of a module: an index into [`Module::nodes`](super::Module::nodes).
+/// Node of a module: an index into [`Module::nodes`](super::Module::nodes).
 pub type Id = usize;
 
-/// What a node computes from others.
+/// Operation of a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Node {
-    /// A constant, in the low bits.
+    /// Constant, in the low bits.
     Constant(u64),
-    /// A parameter: an index into [`Module::parameters`](super::Module::parameters).
+    /// Parameter: an index into [`Module::parameters`](super::Module::parameters).
     Parameter(usize),
-    /// An input or register: an index into [`Module::signals`](super::Module::signals).
+    /// Input or register: an index into [`Module::signals`](super::Module::signals).
     Signal(usize),
-    /// A net of an instance: its place in the walk over the instance's nets.
+    /// Net of an instance.
     Port {
-        /// The instance.
+        /// Index of the instance.
         instance: usize,
-        /// The leaf.
+        /// Leaf in the walk over the instance's nets.
         leaf: usize,
     },
-    /// All bits inverted.
+    /// Inversion of all bits.
     Not(Id),
-    /// The two's complement.
+    /// Two's complement negation.
     Negate(Id),
-    /// An operation on two words of the same width.
+    /// Operation on two words of the same width.
     Binary(Operator, Id, Id),
-    /// The second where the first is high, else the third.
+    /// Second operand if the first is high, else the third.
     Mux(Id, Id, Id),
-    /// Moved up by a fixed number of bits, zeros from below.
+    /// Left shift by a fixed number of bits, filled with zeros.
     ShiftLeft(Id, usize),
-    /// Moved down by a fixed number of bits; from above the sign of a signed word, else zeros.
+    /// Right shift by a fixed number of bits, filled with the sign of a signed word, else with
+    /// zeros.
     ShiftRight(Id, usize),
-    /// As many bits as the node has, from this one up.
+    /// Bits from this index up; the node's width is their number.
     Slice(Id, usize),
-    /// Extended to the node's width, by the sign where the word is signed.
+    /// Extension to the node's width; sign extension if the word is signed.
     Extend(Id),
-    /// The first above the second.
+    /// Concatenation, the first operand in the high bits.
     Join(Id, Id),
-    /// The same bits as another kind of word.
+    /// Same bits as another kind of word.
     Cast(Id),
-    /// What the node was a tick ago; in properties only.
+    /// Value of the node one tick ago; used in properties only.
     Past(Id),
-    /// The word of a memory at an address; for a shift register, the stage.
+    /// Word of a memory at an address; in a shift register, at a stage.
     Read(usize, Id),
 }
 
-/// What is done with two words.
+/// Operation on two words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Operator {
     /// Sum modulo 2^N.
@@ -54,20 +55,20 @@ pub enum Operator {
     Subtract,
     /// Product modulo 2^N.
     Multiply,
-    /// Bit by bit.
+    /// Bitwise and.
     And,
-    /// Bit by bit.
+    /// Bitwise or.
     Or,
-    /// Bit by bit.
+    /// Bitwise exclusive or.
     Xor,
-    /// One bit: both are the same.
+    /// One bit: high if both are equal.
     Equal,
-    /// One bit: the first is less.
+    /// One bit: high if the first is less.
     Below,
 }
 
 impl Node {
-    /// The nodes it is computed from.
+    /// Returns the operands of the node.
     pub fn operands(self) -> impl Iterator<Item = Id> {
         let operands = match self {
             Node::Constant(_) | Node::Parameter(_) | Node::Signal(_) | Node::Port { .. } => {
@@ -88,7 +89,8 @@ impl Node {
         operands.into_iter().flatten()
     }
 
-    /// The same of other nodes, which are asked for in the order of [`operands`](Self::operands).
+    /// Returns the node with each operand mapped by `to`, in the order of
+    /// [`operands`](Self::operands).
     pub fn map(self, mut to: impl FnMut(Id) -> Id) -> Node {
         match self {
             Node::Constant(_) | Node::Parameter(_) | Node::Signal(_) | Node::Port { .. } => self,

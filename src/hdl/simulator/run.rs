@@ -7,11 +7,11 @@ use std::ops::ControlFlow;
 impl<C: Circuit> Simulator<C> {
     /// Runs `ticks` ticks, or until an observer stops.
     ///
-    /// `stimulus` gives the inputs of a tick from its number and its registers.
+    /// `stimulus` returns the inputs of a tick, given its number and its registers.
     ///
     /// # Errors
-    /// An input that does not fit its port, or the first error of an observer; the run is over
-    /// then.
+    /// Returns an error if an input does not fit its port, or the first error of an observer; the
+    /// run is over then.
     pub fn run(
         &mut self,
         ticks: u64,
@@ -32,13 +32,13 @@ impl<C: Circuit> Simulator<C> {
     }
 
     /// Runs like [`run`](Simulator::run), but shows only ticks in which something watched may have
-    /// changed: in those between, everything that is watched is as in the tick shown last.
+    /// changed. In the ticks between, every watched signal is as in the tick shown last.
     ///
-    /// `drive` is asked at the tick to come, before it is settled: it [sets](Self::set) ports in
-    /// that change, and says for how many ticks, this one included, they are held.
+    /// `drive` is called before the next tick is settled. It [sets](Self::set) the input ports
+    /// that change, and returns the number of ticks, this one included, for which all are held.
     ///
     /// # Errors
-    /// The first error of `drive` or of an observer; the run is over then.
+    /// Returns the first error of `drive` or of an observer; the run is over then.
     pub fn run_changes(
         &mut self,
         ticks: u64,
@@ -48,16 +48,16 @@ impl<C: Circuit> Simulator<C> {
         self.run_held(ticks, drive, observer, false)
     }
 
-    /// Runs like [`run_changes`](Simulator::run_changes), but goes over idle ticks in one.
+    /// Runs like [`run_changes`](Simulator::run_changes), but jumps over idle ticks.
     ///
-    /// `observer` sees every tick in which a port out may have changed. It does not see every value
-    /// of a counter: waves, stimulus files and monitors are for [`run`](Simulator::run).
+    /// `observer` sees every tick in which an output port may have changed. It does not see every
+    /// value of a counter: waves, stimulus files and monitors need [`run`](Simulator::run).
     ///
-    /// Idle are ticks in which registers do nothing but count: everything is on straight lines, and
-    /// no decision comes out otherwise than before. No circuit needs to know of it.
+    /// A tick is idle if registers do nothing but count: each changes linearly, and no decision
+    /// changes. Circuits need no support for this.
     ///
     /// # Errors
-    /// The first error of `drive` or of an observer; the run is over then.
+    /// Returns the first error of `drive` or of an observer; the run is over then.
     pub fn fast_forward(
         &mut self,
         ticks: u64,
@@ -77,7 +77,7 @@ impl<C: Circuit> Simulator<C> {
         let end = self.tick.saturating_add(ticks);
         while self.tick < end {
             let held = drive(self)?;
-            // Until then ports in are as they are.
+            // Input ports are constant until then.
             let until = self.tick.saturating_add(held.max(1)).min(end);
             loop {
                 if self.now(|now| observer.sample(now))?.is_break() {
@@ -92,8 +92,8 @@ impl<C: Circuit> Simulator<C> {
         Ok(())
     }
 
-    /// Goes on to a tick in which something watched has changed; whether there is one before
-    /// `until`, at which the registers are there and nothing is settled.
+    /// Advances to the next tick in which something watched has changed. Returns true if there is
+    /// one before `until`; its registers are set, and nothing is settled.
     fn go_to_change(&mut self, until: u64, jumps: bool) -> bool {
         self.settle();
         loop {
@@ -115,7 +115,7 @@ impl<C: Circuit> Simulator<C> {
                 return false;
             }
             let most = if jumps { self.engine.pause() } else { u64::MAX };
-            // Ends settled.
+            // Stops at a settled tick.
             self.tick += self.engine.advance(most.min(left - 1));
             if self.engine.has_changed() {
                 return true;
@@ -123,12 +123,12 @@ impl<C: Circuit> Simulator<C> {
         }
     }
 
-    /// Shows the sample of the tick to come, which `observer` sees too if it
-    /// [looks](Observer::looks) at it; [`go_on`](Self::go_on) goes on from there. Also gives whether
-    /// the observer goes on.
+    /// Shows the sample of the next tick; `observer` sees it too if it [needs](Observer::looks)
+    /// it. [`go_on`](Self::go_on) continues from there. Also returns the observer's decision to
+    /// continue or stop.
     ///
     /// # Errors
-    /// A value does not fit its port, or `observer` objects.
+    /// Returns an error if a value does not fit its port, or the error of `observer`.
     #[inline]
     pub fn look<T>(
         &mut self,
@@ -140,10 +140,10 @@ impl<C: Circuit> Simulator<C> {
         self.look_as_set(observer, show)
     }
 
-    /// [Looks](Self::look) with the ports in as they are [set](Self::set).
+    /// [Looks](Self::look) at the next tick with the input ports as [set](Self::set).
     ///
     /// # Errors
-    /// What `observer` objects to.
+    /// Returns the error of `observer`.
     #[inline]
     pub fn look_as_set<T>(
         &mut self,
@@ -161,10 +161,10 @@ impl<C: Circuit> Simulator<C> {
         Ok((shown, flow?))
     }
 
-    /// [Looks](Self::look) at the tick to come and goes on by it.
+    /// [Looks](Self::look) at the next tick and advances by it.
     ///
     /// # Errors
-    /// Errors of [`look`](Self::look).
+    /// Returns the errors of [`look`](Self::look).
     pub fn step_watched<T>(
         &mut self,
         i: &C::In<Value>,
@@ -176,15 +176,15 @@ impl<C: Circuit> Simulator<C> {
         Ok(looked)
     }
 
-    /// How many ticks there are up to the next at which an observer looks, the one that was
-    /// [looked](Self::look) at among them.
+    /// Returns the number of ticks up to the next that an observer needs, including the one
+    /// [looked](Self::look) at.
     pub fn unseen(&self, observer: &impl Observer<C>) -> u64 {
         observer.next_look(self.tick + 1) - self.tick
     }
 
-    /// Goes on from a tick that was [looked](Self::look) at, by up to so many ticks and at least one,
-    /// ports in as they are: to the first in which a port out or what is
-    /// [watched](Self::watching) may have changed. Returns how many it has gone.
+    /// Advances from a tick that was [looked](Self::look) at, by 1 to `ticks` ticks with constant
+    /// input ports: to the first in which an output port or a [watched](Self::watching) signal may
+    /// have changed. Returns the number of ticks.
     pub fn go_on(&mut self, ticks: u64) -> u64 {
         let start = self.tick;
         self.go_to_change(start.saturating_add(ticks.max(1)), true);

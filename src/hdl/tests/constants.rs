@@ -1,16 +1,16 @@
-//! Numbers that become words, and indices into words: those that do not fit are mistakes.
+//! Constants and indices that do not fit their words are mistakes.
 
 use super::*;
 use crate::hdl::RunError;
 
-/// A constant in every place where one can stand.
+/// Circuit with a constant in every place where one can be.
 #[derive(Debug, Clone)]
 struct Constants {
-    /// Stands wherever an unsigned number does.
+    /// Constant for all unsigned words.
     u: u64,
-    /// Stands wherever a signed one does.
+    /// Constant for all signed words.
     i: i64,
-    /// Stands wherever an index does.
+    /// Index for all words.
     index: usize,
     image: Image,
 }
@@ -72,7 +72,7 @@ impl Circuit for Constants {
     }
 }
 
-/// A register that the circuit around it gives its power-on value.
+/// Circuit with a register whose power-on value the surrounding circuit gives.
 #[derive(Debug, Clone)]
 struct Inside {
     starts: u64,
@@ -81,7 +81,7 @@ struct Inside {
 signals! { for Inside as c;
     /// Ports in.
     pub struct InsideIn {
-        /// Added.
+        /// Summand.
         by: U(4),
     }
     /// Registers.
@@ -273,12 +273,12 @@ fn all_mistakes_are_printed_a_line_each() {
     assert_eq!(format!("{error:?}"), text);
     let error = Simulator::new(&constants(64, 32, 6)).unwrap_err();
     assert_eq!(format!("{error:?}"), text);
-    // What a `main` returns, and what `unwrap` prints.
+    // `main` returns such a box, and `unwrap` prints it.
     let boxed: Box<dyn std::error::Error> = RunError::from(error).into();
     assert_eq!(format!("{boxed:?}"), text);
 }
 
-/// Names that Verilog or SystemVerilog keep for themselves.
+/// Circuit with names that Verilog or SystemVerilog reserves.
 #[derive(Debug, Clone)]
 struct Reserved;
 
@@ -286,23 +286,23 @@ const RESERVED: u32 = line!();
 signals! { for Reserved as c;
     /// A bundle.
     pub struct ReservedBundle {
-        /// Its name comes of two.
+        /// Field whose flat name is a keyword.
         or: Bit,
     }
     /// Ports in.
     pub struct ReservedIn {
-        /// Of Verilog.
+        /// Keyword of Verilog.
         pub wire: Bit,
-        /// Kept for the clock.
+        /// Reserved for the clock.
         pub clk: Bit,
-        /// No word of Verilog, but one without its scope.
+        /// No keyword, but one after its scope is stripped.
         pub this_: ReservedBundle(c),
-        /// Called after its elements.
+        /// Array whose elements have names.
         pub several: [Bit; 2] as Elements(&["one", "xor"]),
     }
     /// Registers.
     pub struct ReservedReg {
-        /// Of SystemVerilog.
+        /// Keyword of SystemVerilog.
         before: Bit,
         /// A memory.
         buf: Ram(2, 4),
@@ -316,7 +316,7 @@ signals! { for Reserved as c;
     pub struct ReservedNet {
         /// Signal with the name of its circuit.
         module: Bit,
-        /// Nothing is wrong with it.
+        /// A name without fault.
         fine: Bit,
     }
 }

@@ -12,9 +12,9 @@ struct Ports;
 signals! { for Ports as _c;
     /// Two words.
     pub struct Channels {
-        /// A signed one.
+        /// Signed word.
         shift: I(6),
-        /// An unsigned one.
+        /// Unsigned word.
         count: U(6),
     }
     /// Ports in.
@@ -46,14 +46,14 @@ impl Circuit for Ports {
     }
 }
 
-/// Something that moves beside it.
+/// Load that moves beside the circuit.
 #[derive(Clone)]
 struct Load;
 
 signals! { for Load as _c;
-    /// Its signals.
+    /// Signals of the load.
     pub struct LoadSignals {
-        /// Where it is.
+        /// Position.
         position: I(8),
     }
 }
@@ -102,7 +102,7 @@ fn the_ends_of_a_range_fit_and_their_neighbours_do_not() {
         let error = simulator.apply(&ports(shift, count)).unwrap_err();
         assert_eq!(error.to_string(), format!("tick 2: {what}"));
     }
-    // The ticks refused did not happen, and no port has changed.
+    // The refused ticks did not happen, and no port has changed.
     assert_eq!(simulator.tick(), 2);
     assert_eq!(simulator.now(|now| now.i.channel[1].shift), 31);
 }
@@ -126,7 +126,7 @@ fn single_ports_are_checked() {
     assert_eq!(error, expected);
     assert_eq!(simulator.see(|s| s.i.channel[1].shift), -32);
 
-    // By number a word is given as its bits.
+    // `set_port` takes a word as its bits.
     simulator.set_port(3, 0x3f).unwrap();
     assert_eq!(simulator.see(|s| s.i.channel[1].shift), -1);
     let error = simulator.set_port(3, 0x40).unwrap_err().to_string();
@@ -139,7 +139,7 @@ fn single_ports_are_checked() {
         error,
         "tick 0: port in 7 does not exist; the circuit has 7, counted from 0"
     );
-    // A place that is no port in.
+    // Place that is not an input port.
     let register = simulator.signals().q.shift;
     assert!(simulator.set(|_| register, 1).is_err());
 }

@@ -1,4 +1,4 @@
-//! A circuit is set, stepped, asked, held beside others and swept.
+//! Setting, stepping, reading and sweeping a circuit, with others beside it.
 
 use super::*;
 use crate::check::{Law, Lockstep, Pair, sweep};
@@ -27,14 +27,14 @@ fn a_simulator_is_set_stepped_and_asked() {
     assert_eq!(simulator.tick(), 10);
 }
 
-/// Something that moves beside a circuit.
+/// Load that moves beside a circuit.
 #[derive(Clone)]
 struct Load;
 
 signals! { for Load as _c;
-    /// It.
+    /// Signals of the load.
     pub struct LoadSignals {
-        /// Where it is.
+        /// Position.
         position: I(8),
     }
 }
@@ -97,7 +97,7 @@ fn circuits_are_held_side_by_side() {
     );
 }
 
-/// Two additions by one counter, as a law.
+/// Law of two additions by one counter.
 #[derive(Debug, Clone)]
 struct Adds {
     wrong_at: Option<u64>,
@@ -106,15 +106,15 @@ struct Adds {
 signals! { for Adds as _c;
     /// A case.
     pub struct AddsIn {
-        /// Added.
+        /// Summand.
         by: U(6),
     }
-    /// What is counted with.
+    /// Parts.
     pub struct AddsParts {
-        /// It.
+        /// Counter.
         counter: Part<Counter>(Counter { width: 6, other: 6 }),
     }
-    /// What is seen.
+    /// Nets.
     pub struct AddsNet {
         /// The sum.
         sum: U(6),

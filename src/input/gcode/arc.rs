@@ -1,36 +1,37 @@
-//! The centre of an arc, and whether its end is on its circle.
+//! Centre of an arc, and the check that its end is on its circle.
 
 use crate::input::ZERO_MM;
 
-/// How far a radius by R may be short of half the chord, in millimetres.
+/// Greatest amount by which a radius (R) may be less than half the chord, in millimetres.
 const SHORT_MM: f64 = 0.005;
 
-/// The same as a part of the radius; the larger of the two counts.
+/// Greatest amount by which it may be less, as a part of the radius; the larger of the two limits
+/// counts.
 const SHORT_RATIO: f64 = 0.001;
 
-/// How far the radii at both ends may differ as a part of the larger one.
+/// Greatest difference of the radii at both ends, as a part of the larger one.
 const OFF_RATIO: f64 = 0.001;
 
-/// How many times the absolute tolerance the ratio allows at most.
+/// Greatest multiple of the absolute tolerance that the ratio allows.
 const MOST_OFFS: f64 = 100.0;
 
-/// The smallest radius at either end, in millimetres.
+/// Smallest radius at either end, in millimetres.
 const SMALLEST_MM: f64 = 0.000_05 * 25.4;
 
-/// How far the radii of an arc may differ where 0.1 % of them is less, in millimetres: what ends and
-/// centre are off when both are rounded to 0.01 mm, or under G20 to 0.001 inch.
+/// Returns the absolute tolerance of the radii at both ends of an arc, in millimetres: the error
+/// of ends and centre when both are rounded to 0.01 mm, or under G20 to 0.001 inch.
 pub(super) fn off_mm(mm_per_unit: f64) -> f64 {
     let digit = if mm_per_unit == 1.0 { 0.01 } else { 0.001 };
     2.0 * digit * std::f64::consts::SQRT_2 * mm_per_unit
 }
 
-/// The centre of an arc of the given radius: the minor arc for a positive one, the major arc for
-/// a negative one. A radius short of half the chord by no more than the tolerance gives the
-/// half circle over the chord.
+/// Returns the centre of an arc of the given radius: the minor arc for a positive radius, the
+/// major arc for a negative one. A radius that is less than half the chord within the tolerance
+/// gives the half circle over the chord.
 ///
 /// # Errors
 ///
-/// What is wrong with the radius.
+/// Returns a message about the radius.
 pub(super) fn centre_by_radius(
     start: [f64; 2],
     end: [f64; 2],
@@ -50,7 +51,7 @@ pub(super) fn centre_by_radius(
         ));
     }
     let height = ((size - half) * (size + half)).max(0.0).sqrt();
-    // Seen along the chord, a clockwise minor arc has its centre on the right.
+    // Along the chord, a clockwise minor arc has its centre on the right.
     let right = if clockwise == (radius > 0.0) {
         height
     } else {
@@ -61,11 +62,11 @@ pub(super) fn centre_by_radius(
 }
 
 /// Checks the centre of an arc against both its ends, as LinuxCNC does: the radii may differ by
-/// `off_mm`, or by 0.1 % and 100 times `off_mm`.
+/// `off_mm`, or by 0.1 %, up to 100 times `off_mm`.
 ///
 /// # Errors
 ///
-/// What is wrong with the radii, and what is allowed.
+/// Returns a message about the radii, and the allowed values.
 pub(super) fn check(
     start: [f64; 2],
     end: [f64; 2],
@@ -79,7 +80,7 @@ pub(super) fn check(
     let (first, last) = (radius(start), radius(end));
     let most = MOST_OFFS * off_mm;
     let allowed = || format!("radii that agree to {off_mm:.4} mm, or to 0.1 % and {most:.2} mm");
-    // Without a radius at an end there is no angle to start or stop at.
+    // Without a radius at an end there is no start or end angle.
     if first.min(last) < SMALLEST_MM {
         return Err(("a radius of zero".to_owned(), allowed()));
     }
@@ -136,7 +137,7 @@ mod tests {
         // 0.1 % of the larger radius.
         assert!(check(100.0, 0.1, 1.0) && !check(100.0, 0.1002, 1.0));
         assert!(check(100.0, -0.1, 1.0) && !check(100.0, -0.1001, 1.0));
-        // 100 times as much at most.
+        // At most 100 times the tolerance.
         assert!(check(9000.0, 2.828, 1.0) && !check(9000.0, 2.829, 1.0));
         assert!(check(9000.0, 7.18, 25.4) && !check(9000.0, 7.19, 25.4));
         assert!(check(0.0013, 0.0, 1.0) && !check(0.0012, 0.01, 1.0));

@@ -1,19 +1,19 @@
-//! One line of G-code to its words.
+//! Parser of a line of G-code into words.
 
 use super::expression::{Name, Scanner, Values};
 use super::polar::Polar;
 use super::problem::Problem;
 use crate::input::brief;
 
-/// The largest value of a word, either side of zero: beyond it no word makes sense.
+/// Greatest absolute value of a word; no larger one makes sense.
 const LARGEST: f64 = 1.0e9;
 
 const WORDS: &str = "words of a letter and a number, such as X10.5";
 
-/// The number of a G or M word: G91.1 is (91, 1).
+/// Number of a G or M word: G91.1 is (91, 1).
 pub(super) type Code = (u32, u32);
 
-/// The words of one line.
+/// Words of one line.
 #[derive(Debug, Default)]
 pub(super) struct Block {
     /// G words.
@@ -21,35 +21,35 @@ pub(super) struct Block {
     /// M words.
     pub(super) m: Vec<Code>,
     letters: [Option<f64>; 26],
-    /// `@` and `^`.
+    /// Words `@` and `^`.
     polar: Polar,
-    /// Parameters to be set after the line was read.
+    /// Parameters to set after the line was read.
     pub(super) sets: Vec<(Name, f64)>,
-    /// The line begins with `/`.
+    /// True if the line begins with `/`.
     pub(super) optional: bool,
-    /// E was there.
+    /// True if the line has an E.
     pub(super) extruder: bool,
-    /// It has a word, N apart.
+    /// True if the line has a word other than N.
     pub(super) any: bool,
-    /// Letters that stand without a number, a bit each.
+    /// Letters without a number, one bit each.
     bare: u32,
-    /// An I without a number beside S, or M3 to M5: inline power of lasers.
+    /// True for an I without a number beside S, or M3 to M5: inline power of lasers.
     pub(super) inline: bool,
-    /// An E behind a number that may be its exponent or a word of its own.
+    /// Problem of an E after a number that may be its exponent or a word.
     unclear: Option<Problem>,
     extruders: usize,
 }
 
 impl Block {
-    /// Reads a cleaned line into itself.
+    /// Parses a cleaned line into this block.
     ///
-    /// An E directly behind the value of a word, before a whole number, is an exponent or an axis.
-    /// Where there is a second E, which no axis has, it is an exponent. Else it is read as an axis,
-    /// and [`Block::take_unclear`] tells of it.
+    /// An E directly after the value of a word, before a whole number, is an exponent or an axis.
+    /// If there is a second E, which no axis has, it is an exponent. Otherwise it is read as an
+    /// axis, and [`Block::take_unclear`] reports it.
     ///
     /// # Errors
     ///
-    /// What is no word, and values that cannot be computed.
+    /// Returns an error for invalid words, and values that cannot be computed.
     pub(super) fn read(&mut self, line: &[u8], values: &dyn Values) -> Result<(), Problem> {
         let read = self.read_words(line, values, false);
         if self.unclear.is_some() && self.extruders > 1 {
@@ -74,7 +74,7 @@ impl Block {
         let mut scanner = Scanner::new(line);
         self.optional = line_start(&mut scanner)?;
         while let Some(letter) = scanner.next_word() {
-            // A checksum as printers' hosts send it.
+            // Checksum sent by hosts of printers.
             if letter == b'*' {
                 break;
             }
@@ -96,7 +96,7 @@ impl Block {
         Ok(())
     }
 
-    /// A parameter that is given a value.
+    /// Parses the assignment of a parameter.
     fn set(&mut self, scanner: &mut Scanner<'_>, values: &dyn Values) -> Result<(), Problem> {
         let name = scanner.parameter(values)?;
         if !scanner.take("=") {
@@ -108,7 +108,7 @@ impl Block {
         Ok(())
     }
 
-    /// A radius or an angle.
+    /// Parses a radius or an angle.
     fn polar_word(
         &mut self,
         index: usize,
@@ -136,7 +136,7 @@ impl Block {
         match scanner.next_word() {
             Some(b'0'..=b'9' | b'.' | b'+' | b'-' | b'#' | b'[') => {}
             Some(b'A'..=b'Z') if function(scanner.rest()) => {}
-            // Printers take a letter alone for a flag, as in G28 X.
+            // Printers take a letter alone as a flag, as in G28 X.
             _ if self.flags(letter) => {
                 self.bare |= bit(letter);
                 return self.put(letter, 0.0);
@@ -150,7 +150,7 @@ impl Block {
                 return Err(Problem::new(field, problem, WORDS));
             }
         }
-        // A second axis E there cannot be.
+        // There cannot be a second axis E.
         let exponents = letter == b'E' || (exponents && has_exponent(letter));
         let value = match exponents {
             true => scanner.value_with_exponent(values),
@@ -180,7 +180,7 @@ impl Block {
         Ok(())
     }
 
-    /// Keeps in mind an E behind a number that makes another value of it if it is an exponent.
+    /// Remembers an E after a number whose value would differ if it is an exponent.
     fn look_for_exponent(&mut self, letter: u8, begin: usize, value: f64, scanner: &Scanner<'_>) {
         let written = scanner.since(begin);
         let Some(length) = scanner.exponent() else {
@@ -198,7 +198,7 @@ impl Block {
         }
     }
 
-    /// Takes out what is wrong with an E that may be an exponent.
+    /// Takes the problem of an E that may be an exponent.
     pub(super) fn take_unclear(&mut self) -> Option<Problem> {
         self.unclear.take()
     }
@@ -214,7 +214,7 @@ impl Block {
         }
     }
 
-    /// Sets a letter, whatever it was.
+    /// Sets a letter unconditionally.
     pub(super) fn place(&mut self, letter: u8, value: f64) {
         let index = usize::from(letter.wrapping_sub(b'A'));
         if let Some(place) = self.letters.get_mut(index) {
@@ -222,68 +222,68 @@ impl Block {
         }
     }
 
-    /// Whether a letter may stand without a number: in G28 and with M words of printers.
+    /// True if a letter may be without a number: in G28 and with M words of printers.
     fn flags(&self, letter: u8) -> bool {
         let homes = self.g.iter().any(|code| matches!(code.0, 28 | 29));
         let printer = self.m.iter().any(|code| code.0 >= 17);
         !matches!(letter, b'G' | b'M' | b'N') && (homes || printer)
     }
 
-    /// True if an I without a number is inline power, before another letter or the end.
+    /// True if an I without a number is inline power; `next` is the next letter.
     fn is_power(&self, next: Option<u8>) -> bool {
         let spindle = self.m.iter().any(|code| matches!(code, (3..=5, 0)));
         spindle || next == Some(b'S') || self.letter(b'S').is_some()
     }
 
-    /// The value of a letter, where it is there.
+    /// Returns the value of a letter.
     pub(super) fn letter(&self, letter: u8) -> Option<f64> {
         let index = usize::from(letter.wrapping_sub(b'A'));
         self.letters.get(index).copied().flatten()
     }
 
-    /// Takes a letter out.
+    /// Removes a letter and returns its value.
     pub(super) fn take(&mut self, letter: u8) -> Option<f64> {
         let index = usize::from(letter.wrapping_sub(b'A'));
         self.letters.get_mut(index).and_then(Option::take)
     }
 
-    /// X, Y and Z.
+    /// Returns X, Y and Z.
     pub(super) fn axes(&self) -> [Option<f64>; 3] {
         [b'X', b'Y', b'Z'].map(|letter| self.letter(letter))
     }
 
-    /// Whether a word of an axis is there; W is taken out before where it is none.
+    /// True if there is an axis word; W is removed before if it is not an axis.
     pub(super) fn moves(&self) -> bool {
         self.axes().iter().any(Option::is_some) || self.letter(b'W').is_some() || self.is_polar()
     }
 
-    /// True if a radius or an angle is there.
+    /// True if there is a radius or an angle.
     pub(super) fn is_polar(&self) -> bool {
         self.polar.iter().any(Option::is_some)
     }
 
-    /// Takes out radius and angle.
+    /// Removes radius and angle and returns them.
     pub(super) fn take_polar(&mut self) -> Polar {
         std::mem::take(&mut self.polar)
     }
 
-    /// The letters that are there.
+    /// Returns the letters of the line.
     pub(super) fn given(&self) -> impl Iterator<Item = u8> + '_ {
         (b'A'..=b'Z').filter(|&letter| self.letter(letter).is_some())
     }
 
-    /// Forgets all letters.
+    /// Removes all letters.
     pub(super) fn clear_letters(&mut self) {
         (self.letters, self.polar) = ([None; 26], Polar::default());
         self.unclear = None;
     }
 
-    /// True if a letter stands without a number.
+    /// True if a letter has no number.
     pub(super) fn is_bare(&self, letter: u8) -> bool {
         self.bare & bit(letter) != 0
     }
 
-    /// Forgets the letters that stand without a number.
+    /// Removes the letters without a number.
     pub(super) fn clear_bare(&mut self) {
         for letter in b'A'..=b'Z' {
             if self.is_bare(letter) {
@@ -310,16 +310,16 @@ fn bit(letter: u8) -> u32 {
     1 << (letter.wrapping_sub(b'A') % 32)
 }
 
-/// True if the number of a word may have an exponent: that of a code has none.
+/// True if the number of a word may have an exponent; the number of a code has none.
 fn has_exponent(letter: u8) -> bool {
     !matches!(letter, b'G' | b'M' | b'N' | b'O' | b'T')
 }
 
-/// Steps over `/` and the line number; true where there was a `/`.
+/// Skips `/` and the line number; returns true if there was a `/`.
 ///
 /// # Errors
 ///
-/// An N without its number.
+/// Returns an error for an N without a number.
 pub(super) fn line_start(scanner: &mut Scanner<'_>) -> Result<bool, Problem> {
     let mut optional = false;
     loop {
@@ -327,7 +327,7 @@ pub(super) fn line_start(scanner: &mut Scanner<'_>) -> Result<bool, Problem> {
             Some(b'/') => {
                 optional = true;
                 scanner.bump();
-                // Some controls number their switches.
+                // Some controls number the switches of optional lines.
                 scanner.digits();
             }
             Some(b'N') => {
@@ -351,7 +351,7 @@ fn function(rest: &[u8]) -> bool {
     NAMES.iter().any(|name| rest.starts_with(name.as_bytes()))
 }
 
-/// The number of a G or M word, from 0 to 99999 with one decimal.
+/// Converts the number of a G or M word, from 0 to 99999 with one decimal.
 fn code(letter: char, value: f64) -> Result<Code, Problem> {
     let tenths = (value * 10.0).round();
     if !(0.0..=999_999.0).contains(&tenths) || (value * 10.0 - tenths).abs() > 1.0e-3 {
@@ -363,7 +363,7 @@ fn code(letter: char, value: f64) -> Result<Code, Problem> {
     Ok((tenths / 10, tenths % 10))
 }
 
-/// A code as it is written.
+/// Returns a code as written.
 pub(super) fn name(letter: char, (whole, tenths): Code) -> String {
     match tenths {
         0 => format!("{letter}{whole}"),

@@ -1,4 +1,4 @@
-//! What O-words do: branches and loops of a program.
+//! Execution of O-words: branches and loops of a program.
 
 use super::expression::Scanner;
 use super::flow::{Keyword, o_word};
@@ -7,7 +7,7 @@ use super::runner::Runner;
 use super::text::{clean, line_at};
 
 impl Runner<'_> {
-    /// Does what an O-word says; `start` is where its line begins, `rest` what stands behind it.
+    /// Executes an O-word; its line begins at `start`, and `rest` is the text after it.
     pub(super) fn flow(
         &mut self,
         start: usize,
@@ -58,7 +58,7 @@ impl Runner<'_> {
             return Err(lone());
         }
         match keyword {
-            // Whatever is run ends with its endsub.
+            // A subroutine or block that runs ends with its own end word.
             K::Sub | K::Do | K::EndIf | K::Program => {
                 if keyword == K::Sub {
                     self.go_after(end);
@@ -75,7 +75,7 @@ impl Runner<'_> {
                 }
             }
             K::If if !holds => self.branch(onward)?,
-            // A branch that was run to its end.
+            // End of a branch that was executed.
             K::ElseIf | K::Else => self.go_after(end),
             K::While if closes && holds => self.go_after(head),
             K::While if !closes && !holds => self.go_after(end),
@@ -95,14 +95,14 @@ impl Runner<'_> {
         Ok(())
     }
 
-    /// Goes to the line of an O-word.
+    /// Jumps to the line of an O-word.
     fn go_to(&mut self, at: Option<usize>) {
         if let Some(to) = self.place(at).map(|place| (place.start, place.line)) {
             self.at = to;
         }
     }
 
-    /// Tries the branches behind an IF that does not hold.
+    /// Tries the branches after an IF that is false.
     fn branch(&mut self, mut at: Option<usize>) -> Result<(), Problem> {
         while let Some(place) = self.place(at) {
             let (keyword, start, line, onward) =
@@ -152,7 +152,7 @@ impl Runner<'_> {
                 "blocks with both ends",
             ));
         }
-        // Loops inside the one that is left or goes on are over.
+        // Loops inside the one that is left or continued end.
         let base = self.frames.last().map_or(0, |frame| frame.loops);
         let inner = |(at, _): &(usize, u64)| Some(*at) > head;
         while self.loops.len() > base && self.loops.last().is_some_and(inner) {

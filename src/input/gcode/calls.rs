@@ -1,4 +1,4 @@
-//! Calls of subroutines and programs, and the ways back.
+//! Calls of subroutines and programs, and their returns.
 
 use std::rc::Rc;
 
@@ -9,27 +9,27 @@ use super::parameters::LOCALS;
 use super::problem::Problem;
 use super::runner::Runner;
 
-/// How deep calls nest.
+/// Greatest nesting depth of calls.
 const DEEPEST: usize = 10;
 
-/// A call that is being run.
+/// Active call.
 #[derive(Debug)]
 pub(super) struct Frame<'a> {
-    /// Where it goes on after, and that line.
+    /// Position after the call, and its line.
     back: (usize, usize),
-    /// The text that this is in.
+    /// Text that contains the call.
     pub(super) source: Rc<Source<'a>>,
-    /// The line of the call.
+    /// Line of the call.
     pub(super) line: usize,
-    /// Loops that were open before.
+    /// Number of loops that were open before.
     pub(super) loops: usize,
-    /// A program by its number has no parameters of its own.
+    /// Program called by number, which has no parameters of its own.
     program: Option<Again>,
-    /// What M73 put aside.
+    /// Modal state saved by M73.
     pub(super) modal: Option<Modal>,
 }
 
-/// A program that M98 calls.
+/// Program called by M98.
 #[derive(Debug, Clone, Copy)]
 struct Again {
     place: usize,
@@ -81,7 +81,7 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    /// The subroutine of a label: of this file, of the program, or of a file of its own.
+    /// Returns the subroutine of a label: from this file, the program, or a file of its own.
     fn subroutine(
         &mut self,
         field: &str,
@@ -94,8 +94,8 @@ impl<'a> Runner<'a> {
         if own_line.is_some_and(|begin| begin < line) {
             return own.ok_or_else(|| not_there(field, "a subroutine"));
         }
-        // A file goes before a subroutine that stands behind the call, so LinuxCNC; others have it
-        // the other way round.
+        // A file has precedence over a subroutine after the call, as in LinuxCNC; other controls
+        // do the opposite.
         if let Some(found) = self.library.find(field, label)? {
             let file = found.file.clone().unwrap_or_default();
             if own.is_some() && !Rc::ptr_eq(&found, &self.source) {
@@ -137,7 +137,7 @@ impl<'a> Runner<'a> {
         };
         let mut repeats = times.unwrap_or(1.0);
         let mut found = self.numbered(&format!("{program}"))?;
-        // P30002 is program 2 three times, where there is no program 30002.
+        // P30002 is program 2 three times, if there is no program 30002.
         if found.is_none() && times.is_none() && program > 9999.0 && program.fract() == 0.0 {
             found = self.numbered(&format!("{}", program % 10_000.0))?;
             repeats = (program / 10_000.0).floor();
@@ -156,7 +156,7 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    /// The program of a number: of this file, of the program, or of a file of its own.
+    /// Returns the program of a number: from this file, the program, or a file of its own.
     fn numbered(&mut self, number: &str) -> Result<Option<(Rc<Source<'a>>, usize)>, Problem> {
         for source in [Rc::clone(&self.source), self.program_source()] {
             if let Some(place) = source.index().program(number) {
@@ -177,14 +177,14 @@ impl<'a> Runner<'a> {
         Ok(Some((source, place)))
     }
 
-    /// The text that was given, whatever is being run of others.
+    /// Returns the text of the main program, whatever file is running.
     fn program_source(&self) -> Rc<Source<'a>> {
         let frame = self.frames.first();
         Rc::clone(frame.map_or(&self.source, |frame| &frame.source))
     }
 
-    /// The line of the program that a line of the text being run belongs to: the call in it that
-    /// led to a file of subroutines.
+    /// Returns the line of the program for a line of the running text: the call in the program
+    /// that led to a file of subroutines.
     pub(super) fn line_of_program(&self, line: usize) -> usize {
         if self.source.is_program() {
             return line;
@@ -194,7 +194,7 @@ impl<'a> Runner<'a> {
         call.map_or(line, |frame| frame.line)
     }
 
-    /// Returns from a call; false where there is none.
+    /// Returns from a call; returns false if there is none.
     pub(super) fn leave(&mut self, value: Option<f64>) -> Result<bool, Problem> {
         let Some(frame) = self.frames.last_mut() else {
             return Ok(false);

@@ -1,30 +1,31 @@
-//! Curves as chords, for what is no line and no arc in the X-Y plane.
+//! Approximation of curves by chords, for all that are not lines or arcs in the X-Y plane.
 
 use std::f64::consts::TAU;
 
 use super::nurbs::Weighted;
 use crate::input::Point;
 
-/// How far chords may be off their curve, in millimetres.
+/// Greatest deviation of a chord from its curve, in millimetres.
 pub(super) const OFF_MM: f64 = 0.001;
 
-/// The most chords of one curve.
+/// Greatest number of chords of a curve.
 const MOST: f64 = 1.0e5;
 
 fn steps(wanted: f64) -> u32 {
     wanted.ceil().clamp(1.0, MOST) as u32
 }
 
-/// How many chords an arc needs whose radius runs from one to another. A chord over an angle of it
-/// is off by a quarter of the angle times what the radius changes, beyond that of a circle.
+/// Returns the number of chords of an arc whose radius changes from one value to another. Beyond
+/// the deviation on a circle, a chord deviates by a quarter of its angle times the change of the
+/// radius.
 fn arc_steps(first: f64, last: f64, angle: f64) -> u32 {
     let angle = angle.abs();
     let widest = 2.0 * (1.0 - (OFF_MM / first.max(last)).min(1.0)).acos();
     steps((angle / widest).hypot((angle * (last - first).abs() / (4.0 * OFF_MM)).sqrt()))
 }
 
-/// An arc about a centre, in the plane of two axes, as the ends of its chords. The third axis and
-/// the radius change in proportion to the angle.
+/// Approximates an arc about a centre, in the plane of two axes; yields the ends of the chords.
+/// The third axis and the radius change in proportion to the angle.
 pub(super) fn arc(
     from: Point,
     to: Point,
@@ -59,8 +60,8 @@ pub(super) fn arc(
     push(to);
 }
 
-/// The angle from a start to an end about a centre: above 0 and at most a turn counter-clockwise,
-/// below it clockwise.
+/// Returns the angle from a start to an end about a centre: above 0 and at most a turn if
+/// counter-clockwise, negative if clockwise.
 pub(super) fn angle(from: [f64; 2], to: [f64; 2], centre: [f64; 2], clockwise: bool) -> f64 {
     let at = |[u, v]: [f64; 2]| (v - centre[1]).atan2(u - centre[0]);
     let turn = (at(to) - at(from)).rem_euclid(TAU);
@@ -73,13 +74,14 @@ pub(super) fn angle(from: [f64; 2], to: [f64; 2], centre: [f64; 2], clockwise: b
     }
 }
 
-/// A cubic Bézier curve in X and Y, as the ends of its chords.
+/// Approximates a cubic Bézier curve in X and Y; yields the ends of the chords.
 pub(super) fn cubic(points: [[f64; 2]; 4], mut push: impl FnMut([f64; 2])) {
     let [p, q, r, s] = points;
     let bend = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
         (a[0] - 2.0 * b[0] + c[0]).hypot(a[1] - 2.0 * b[1] + c[1])
     };
-    // A chord over 1/n is off by an eighth of the second derivative, over n squared, at most.
+    // A chord over 1/n deviates by at most an eighth of the second derivative, divided by n
+    // squared.
     let second = 6.0 * bend(p, q, r).max(bend(q, r, s));
     let count = steps((second / (8.0 * OFF_MM)).sqrt());
     for step in 1..count {
@@ -96,11 +98,11 @@ pub(super) fn cubic(points: [[f64; 2]; 4], mut push: impl FnMut([f64; 2])) {
     push(s);
 }
 
-/// How often a span of a NURBS is halved at most.
+/// Greatest number of halvings of a NURBS span.
 const HALVINGS: u32 = 12;
 
-/// A NURBS, as its start and the ends of its chords. There are as many control points as the order
-/// or more, and as many knots, which do not fall, as both together.
+/// Approximates a NURBS; yields its start and the ends of the chords. The number of control points
+/// must be at least the order, the number of knots the sum of both, and knots must not decrease.
 pub(super) fn nurbs(
     points: &[Weighted],
     knots: &[f64],
@@ -121,7 +123,8 @@ pub(super) fn nurbs(
     }
 }
 
-/// The ends of chords between two points of a curve: halved until points between are close enough.
+/// Yields the ends of chords between two points of a curve, which is halved until points between
+/// are close enough.
 fn halve(
     from: (f64, [f64; 2]),
     to: (f64, [f64; 2]),
@@ -130,8 +133,8 @@ fn halve(
     push: &mut impl FnMut([f64; 2]),
 ) {
     let between = |part: f64| from.0 + (to.0 - from.0) * part;
-    // Not evenly spread, so that a bend to either side is not passed by. Half the tolerance, since
-    // what is farthest off lies between them.
+    // Unevenly spaced, so that a bend to either side is not missed. Half the tolerance, since the
+    // largest deviation is between them.
     let off = [0.2, 0.45, 0.75].map(|part| off_chord(from.1, to.1, at(between(part))));
     if left == 0 || (left < HALVINGS && off.into_iter().all(|off| off <= OFF_MM / 2.0)) {
         push(to.1);
@@ -142,7 +145,7 @@ fn halve(
     halve(middle, to, left - 1, at, push);
 }
 
-/// How far a point is off a chord.
+/// Returns the distance of a point from a chord.
 fn off_chord([x0, y0]: [f64; 2], [x1, y1]: [f64; 2], [x, y]: [f64; 2]) -> f64 {
     let (u, v) = (x1 - x0, y1 - y0);
     let square = u * u + v * v;
@@ -153,7 +156,7 @@ fn off_chord([x0, y0]: [f64; 2], [x1, y1]: [f64; 2], [x, y]: [f64; 2]) -> f64 {
     (x - x0 - u * part).hypot(y - y0 - v * part)
 }
 
-/// A point of a NURBS at a parameter within a span of its knots, by de Boor's algorithm.
+/// Returns a point of a NURBS at a parameter within a span of its knots, by de Boor's algorithm.
 fn on_nurbs(points: &[Weighted], knots: &[f64], order: usize, span: usize, u: f64) -> [f64; 2] {
     let first = span + 1 - order;
     let mut sums: Vec<[f64; 3]> = points[first..=span]
@@ -242,7 +245,7 @@ mod tests {
         let mut ends = vec![[0.0, 0.0]];
         cubic(points, |to| ends.push(to));
         assert_eq!(ends.last(), Some(&[30.0, 0.0]));
-        // Halfway between two ends by the curve itself.
+        // Halfway between two ends on the exact curve.
         let exact = |t: f64| {
             let u = 1.0 - t;
             [
@@ -266,7 +269,7 @@ mod tests {
 
     #[test]
     fn a_nurbs_of_weights_is_a_circle() {
-        // A quarter by one span, and a full circle by four with double knots.
+        // A quarter circle by one span, and a full circle by four with double knots.
         let half = 0.5_f64.sqrt();
         let quarter = weighted([[10.0, 0.0, 1.0], [10.0, 10.0, half], [0.0, 10.0, 1.0]]);
         let full = weighted([
@@ -325,7 +328,7 @@ mod tests {
             let [x, y] = on_nurbs(&weighted, &knots, 4, 3, 5.0 * t);
             assert!((x - exact[0]).hypot(y - exact[1]) < 1e-9, "{t}");
         }
-        // It bends to both sides of its chord.
+        // Bends to both sides of its chord.
         let mut ends = Vec::new();
         nurbs(&weighted, &knots, 4, |to| ends.push(to));
         assert!(ends.len() > 50, "{}", ends.len());

@@ -1,24 +1,24 @@
-//! Codes that say nothing about the path, and those that are refused.
+//! Codes without effect on the path, and codes that are refused.
 
 use super::block::Code;
 
-/// What a machine does with an M word.
+/// Handling of an M word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Understood.
+    /// Supported.
     Known,
-    /// Skipped with a warning, always.
+    /// Always skipped with a warning.
     Skipped,
-    /// Skipped with a warning, or refused by a strict reader. Whatever else is in the line belongs
-    /// to it, where there is no G word.
+    /// Skipped with a warning, or refused by a strict reader. Without a G word, all other words of
+    /// the line belong to it.
     Harmless,
     /// Refused.
     Refused,
 }
 
-/// Spindle, coolant, stops and tool changes; clamps and steppers; switches and outputs (M62 to
-/// M68); overrides (M48 to M53); heaters, fans, files, messages and settings of printers. Refused
-/// are those that move, change offsets or scales, or whose meaning is not known.
+/// Skipped are spindle, coolant, stops and tool changes; clamps and steppers; switches and outputs
+/// (M62 to M68); overrides (M48 to M53); heaters, fans, files, messages and settings of printers.
+/// Refused are words that move, change offsets or scales, or have an unknown meaning.
 pub(super) fn m_word((number, tenth): Code) -> Kind {
     match (number, tenth) {
         (2 | 30 | 70..=72 | 98 | 99, 0) => Kind::Known,
@@ -38,7 +38,7 @@ pub(super) fn m_word((number, tenth): Code) -> Kind {
     }
 }
 
-/// Why an M word is refused.
+/// Returns the reason why an M word is refused.
 pub(super) fn m_reason(code: Code) -> &'static str {
     match code {
         (23 | 26, 0) => "runs another file, or another part of it",
@@ -53,8 +53,8 @@ pub(super) fn m_reason(code: Code) -> &'static str {
     }
 }
 
-/// Letters by which an M word that is skipped would change the path: M207 Z lifts while filament is
-/// taken back, and M240 goes to where it takes a picture.
+/// Returns the letters by which a skipped M word would change the path: M207 Z lifts while
+/// filament is retracted, and M240 moves to take a picture.
 pub(super) fn m_changes((number, _): Code) -> &'static [u8] {
     match number {
         207 => b"Z",
@@ -63,8 +63,9 @@ pub(super) fn m_changes((number, _): Code) -> &'static [u8] {
     }
 }
 
-/// The letters of an M word that LinuxCNC has too; the others of the line are other words'. None
-/// for those of printers, to which all letters of a line without a G word belong.
+/// Returns the letters of an M word that LinuxCNC has too; other letters of the line belong to
+/// other words. Returns `None` for M words of printers, which own all letters of a line without a
+/// G word.
 pub(super) fn m_letters((number, _): Code) -> Option<&'static [u8]> {
     Some(match number {
         19 => b"RPQ",
@@ -78,8 +79,8 @@ pub(super) fn m_letters((number, _): Code) -> Option<&'static [u8]> {
     })
 }
 
-/// True if X, Y and Z may belong to an M word of a printer: steppers, switches, steps and speeds of
-/// axes, heights.
+/// True if X, Y and Z may belong to an M word of a printer: steppers, switches, steps and speeds
+/// of axes, heights.
 pub(super) fn m_has_axes((number, _): Code) -> bool {
     matches!(
         number,
@@ -87,7 +88,7 @@ pub(super) fn m_has_axes((number, _): Code) -> bool {
     ) || matches!(number, 593 | 600..=603 | 701 | 702 | 860..=869 | 906..=920)
 }
 
-/// The letters, beside axes, by which a G word changes the path.
+/// Returns the letters, besides axes, by which a G word changes the path.
 pub(super) fn g_letters(code: Code) -> &'static [u8] {
     match code {
         (2 | 3, 0) => b"PR",
@@ -102,7 +103,7 @@ pub(super) fn g_letters(code: Code) -> &'static [u8] {
     }
 }
 
-/// Why a G word is refused, where it is known.
+/// Returns the reason why a G word is refused.
 pub(super) fn g_reason(code: Code) -> &'static str {
     match code {
         (7, 0) => "changes X to a diameter",

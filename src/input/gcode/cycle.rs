@@ -1,4 +1,4 @@
-//! Drilling cycles as moves.
+//! Conversion of drilling cycles into moves.
 
 use super::block::Block;
 use super::machine::{Machine, Piece};
@@ -7,17 +7,16 @@ use super::problem::Problem;
 use crate::input::{Course, Point};
 use crate::settings::tidy;
 
-/// How far G73 lifts, and how far above the last depth G83 stops its rapid, in millimetres.
+/// Lift of G73, and distance above the last depth at which the rapid of G83 stops, in millimetres.
 const LIFT_MM: f64 = 0.254;
 
-/// The most pecks of one hole.
+/// Greatest number of pecks of one hole.
 const PECKS: f64 = 1.0e4;
 
-/// What a cycle keeps from line to line along the axis it drills in, from the machine's zero, in
-/// millimetres.
+/// Modal values of a cycle along its drilling axis, from the machine's zero, in millimetres.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Cycle {
-    /// The place before the first hole, where G98 ends.
+    /// Position before the first hole, where G98 ends.
     initial: f64,
     r: Option<f64>,
     bottom: Option<f64>,
@@ -34,7 +33,7 @@ impl Cycle {
 }
 
 impl Machine<'_> {
-    /// Drills the holes of a line; says how many.
+    /// Drills the holes of a line; returns their number.
     pub(super) fn drill(
         &mut self,
         line: usize,
@@ -42,7 +41,7 @@ impl Machine<'_> {
         code: u32,
     ) -> Result<u64, Problem> {
         let field = format!("G{code}");
-        // LinuxCNC's interpreter mixes up the axes there.
+        // LinuxCNC's interpreter mixes up the axes in this case.
         if code == 84 && self.modal.plane != Plane::Xy {
             let problem = "outside of G17, where controls differ";
             return Err(Problem::new(field, problem, "tapping in the X-Y plane"));
@@ -86,7 +85,7 @@ impl Machine<'_> {
             block.take(b'Q');
             self.cycle.q = Some(q * units);
         }
-        // A dwell says nothing about the path.
+        // A dwell has no effect on the path.
         block.take(b'P');
         let times = block.take(b'L').or_else(|| block.take(b'K')).unwrap_or(1.0);
         if !(0.0..=1.0e6).contains(&times) || times.fract() != 0.0 {
@@ -159,7 +158,7 @@ impl Machine<'_> {
         Ok(count)
     }
 
-    /// A straight piece to a point.
+    /// Adds a straight piece to a point.
     pub(super) fn straight(&mut self, to: Point, rapid: bool) {
         let mut squares = 0.0;
         for (from, to) in self.at.iter().zip(to) {

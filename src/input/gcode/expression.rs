@@ -1,27 +1,27 @@
 //! Values: numbers, parameters and expressions in brackets.
 //!
 //! `**` binds tightest, then `*`, `/` and `MOD`, then `+` and `-`, then `EQ`, `NE`, `GT`, `GE`,
-//! `LT` and `LE`, then `AND`, `OR` and `XOR`; what binds alike goes from left to right. A sign is
-//! part of its number: `-2**2` is 4. Angles are in degrees. What compares gives 1 or 0; `EQ` holds
-//! within 0.0001. `MOD` is never negative. `ROUND` rounds halves away from zero.
+//! `LT` and `LE`, then `AND`, `OR` and `XOR`; equal operators associate to the left. A sign is
+//! part of its number: `-2**2` is 4. Angles are in degrees. Comparisons give 1 or 0; `EQ` has a
+//! tolerance of 0.0001. `MOD` is never negative. `ROUND` rounds halves away from zero.
 
 use super::problem::Problem;
 use crate::input::brief;
 
-/// How deep brackets, signs and parameters stand inside each other.
+/// Greatest nesting depth of brackets, signs and parameters.
 const DEEPEST: usize = 64;
 
-/// Values closer than this are equal to `EQ` and `NE`.
+/// Tolerance of `EQ` and `NE`.
 const EQUAL: f64 = 1.0e-4;
 
 const VALUES: &str = "a number, a parameter or an expression in brackets";
 
-/// A parameter, as an expression names it.
+/// Parameter in an expression.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Name {
     /// `#5`.
     Number(u32),
-    /// `#<name>`, in capitals; with a leading `_` it is global.
+    /// `#<name>`, in upper case; global with a leading `_`.
     Text(String),
 }
 
@@ -34,21 +34,22 @@ impl std::fmt::Display for Name {
     }
 }
 
-/// What knows the parameters.
+/// Access to the parameters.
 pub(super) trait Values {
-    /// The value of a parameter; none where it has not been set.
+    /// Returns the value of a parameter; `None` if it was never set.
     ///
     /// # Errors
     ///
-    /// A parameter there cannot be.
+    /// Returns an error for an impossible parameter.
     fn value(&self, name: &Name) -> Result<Option<f64>, Problem>;
 }
 
-/// A position in a line that [`clean`](super::text::clean) made.
+/// Position in a line that [`clean`](super::text::clean) made.
 pub(super) struct Scanner<'a> {
     line: &'a [u8],
     at: usize,
-    /// Numbers may have exponents: in brackets, where no word E can stand, and where asked for.
+    /// True if numbers may have exponents: in brackets, where no word E is possible, and on
+    /// request.
     exponents: bool,
 }
 
@@ -61,7 +62,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// The next character, where a comment was skipped over.
+    /// Returns the next character after a skipped comment.
     pub(super) fn next_word(&mut self) -> Option<u8> {
         while self.peek() == Some(b' ') {
             self.at += 1;
@@ -69,7 +70,7 @@ impl<'a> Scanner<'a> {
         self.peek()
     }
 
-    /// Where in the line it is.
+    /// Returns the position in the line.
     pub(super) fn at(&self) -> usize {
         self.at
     }
@@ -86,7 +87,7 @@ impl<'a> Scanner<'a> {
         self.line.get(self.at..).unwrap_or_default()
     }
 
-    /// The text from a place before.
+    /// Returns the text from a position up to here.
     pub(super) fn since(&self, begin: usize) -> String {
         let text = self.line.get(begin..self.at).unwrap_or_default();
         String::from_utf8_lossy(text).into_owned()
@@ -96,7 +97,7 @@ impl<'a> Scanner<'a> {
         brief(&String::from_utf8_lossy(self.rest()))
     }
 
-    /// Steps over a text, where it is next.
+    /// Skips a text if it is next.
     pub(super) fn take(&mut self, text: &str) -> bool {
         let found = self.rest().starts_with(text.as_bytes());
         if found {
@@ -113,21 +114,21 @@ impl<'a> Scanner<'a> {
         std::str::from_utf8(piece).unwrap_or_default()
     }
 
-    /// Letters that are next.
+    /// Reads the letters that are next.
     pub(super) fn letters(&mut self) -> &'a str {
         self.run(|byte| byte.is_ascii_uppercase())
     }
 
-    /// Digits that are next.
+    /// Reads the digits that are next.
     pub(super) fn digits(&mut self) -> &'a str {
         self.run(|byte| byte.is_ascii_digit())
     }
 
-    /// A name between `<` and `>`.
+    /// Reads a name between `<` and `>`.
     ///
     /// # Errors
     ///
-    /// No such name is next.
+    /// Returns an error if no such name is next.
     pub(super) fn angled(&mut self) -> Result<String, Problem> {
         let wrong = || Problem::new("<", "a name that is not closed", "a name in <>");
         if !self.take("<") {
@@ -140,20 +141,20 @@ impl<'a> Scanner<'a> {
         Ok(name.to_owned())
     }
 
-    /// A value: a number, a parameter, a function, or an expression in brackets.
+    /// Reads a value: a number, a parameter, a function, or an expression in brackets.
     ///
     /// # Errors
     ///
-    /// None is next, or it cannot be computed.
+    /// Returns an error if no value is next, or it cannot be computed.
     pub(super) fn value(&mut self, values: &dyn Values) -> Result<f64, Problem> {
         self.operand(values, 0)
     }
 
-    /// The parameter behind a `#`.
+    /// Reads the parameter after a `#`.
     ///
     /// # Errors
     ///
-    /// None is next.
+    /// Returns an error if no parameter is next.
     pub(super) fn parameter(&mut self, values: &dyn Values) -> Result<Name, Problem> {
         self.parameter_at(values, 0)
     }
@@ -171,11 +172,11 @@ impl<'a> Scanner<'a> {
         Ok(Name::Number(whole as u32))
     }
 
-    /// A value as [`Scanner::value`] reads it, whose number may have an exponent.
+    /// Reads a value as [`Scanner::value`] does, whose number may have an exponent.
     ///
     /// # Errors
     ///
-    /// None is next, or it cannot be computed.
+    /// Returns an error if no value is next, or it cannot be computed.
     pub(super) fn value_with_exponent(&mut self, values: &dyn Values) -> Result<f64, Problem> {
         self.with_exponents(true, |scanner| scanner.value(values))
     }
@@ -187,7 +188,8 @@ impl<'a> Scanner<'a> {
         read
     }
 
-    /// The length of an exponent that is next: E and a whole number. A decimal one belongs to a word.
+    /// Returns the length of an exponent if one is next: E and a whole number. A decimal number
+    /// belongs to a word.
     pub(super) fn exponent(&self) -> Option<usize> {
         let digits = match self.rest() {
             [b'E', b'+' | b'-', digits @ ..] | [b'E', digits @ ..] => digits,
@@ -228,7 +230,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// An unsigned decimal number.
+    /// Reads an unsigned decimal number.
     pub(super) fn number(&mut self) -> Result<f64, Problem> {
         let begin = self.at;
         self.run(|byte| byte.is_ascii_digit() || byte == b'.');
@@ -263,7 +265,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// An expression of operators that bind more tightly than a level.
+    /// Evaluates operators that bind more tightly than a level.
     fn operation(&mut self, values: &dyn Values, depth: usize, level: u8) -> Result<f64, Problem> {
         let mut left = self.operand(values, depth)?;
         loop {
@@ -297,7 +299,7 @@ impl<'a> Scanner<'a> {
             if !self.take("]") {
                 return Err(Problem::new(name, "no closing ]", "EXISTS[#<name>]"));
             }
-            // A number that there cannot be does not exist either.
+            // An impossible parameter does not exist.
             return Ok(truth(matches!(values.value(&parameter), Ok(Some(_)))));
         }
         if self.peek() != Some(b'[') {
@@ -332,7 +334,7 @@ impl<'a> Scanner<'a> {
 
 type Operator = (&'static str, u8, fn(f64, f64) -> f64);
 
-/// `**` before `*`, whose beginning it is.
+/// `**` comes before `*`, which is its prefix.
 const OPERATORS: [Operator; 15] = [
     ("**", 5, f64::powf),
     ("*", 4, |a, b| a * b),

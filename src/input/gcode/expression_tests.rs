@@ -1,7 +1,7 @@
 use super::*;
 use proptest::prelude::*;
 
-/// `#1` is 2.5, `#2` is -3, `#<_a>` is 7, `#<b>` has no value.
+/// Parameters: `#1` is 2.5, `#2` is -3, `#<_a>` is 7, `#<b>` has no value.
 struct Known;
 
 impl Values for Known {
@@ -112,7 +112,7 @@ fn what_has_no_value_is_refused() {
     assert!(value(&"-".repeat(100_000)).is_err());
 }
 
-/// An expression, as text and by its value.
+/// Expression as text, with its value.
 #[derive(Debug, Clone)]
 struct Both {
     text: String,

@@ -1,4 +1,4 @@
-//! O-words: where the blocks of a program begin and end.
+//! Block structure of O-words in a program.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use super::expression::{Scanner, Values};
 use super::problem::Problem;
 use super::text::{clean, line_at};
 
-/// What an O-word does.
+/// Keyword of an O-word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Keyword {
     Sub,
@@ -25,13 +25,13 @@ pub(super) enum Keyword {
     EndRepeat,
     Break,
     Continue,
-    /// The number of a program: none of the others follows.
+    /// Number of a program: no other keyword follows.
     Program,
 }
 
 use Keyword as K;
 
-/// Longer ones before those that are their beginning.
+/// Longer keywords before their prefixes.
 const KEYWORDS: [(&str, Keyword); 15] = [
     ("SUB", K::Sub),
     ("ENDSUB", K::EndSub),
@@ -60,7 +60,7 @@ impl Keyword {
         matches!(self, K::Sub | K::If | K::While | K::Do | K::Repeat)
     }
 
-    /// Whether a block that `self` opens goes on or ends with another keyword.
+    /// True if a block that `self` opens continues or ends with another keyword.
     fn goes_on_with(self, next: Keyword) -> bool {
         match self {
             K::Sub => next == K::EndSub,
@@ -77,14 +77,14 @@ impl Keyword {
     }
 }
 
-/// The O-word at the beginning of a cleaned line, where there is one: its label, what it does, and
-/// the rest of the line.
+/// Parses the O-word at the beginning of a cleaned line, if there is one: its label, its keyword,
+/// and the rest of the line.
 ///
-/// A number may be computed where the values are given.
+/// A label may be computed if values are given.
 ///
 /// # Errors
 ///
-/// An O without a number or a name.
+/// Returns an error for an O without a number or a name.
 pub(super) fn o_word<'a>(
     line: &'a [u8],
     values: Option<&dyn Values>,
@@ -112,7 +112,7 @@ pub(super) fn o_word<'a>(
     };
     scanner.next_word();
     let rest = scanner.rest();
-    // ELSE is the beginning of ELSEIF.
+    // ELSE is a prefix of ELSEIF.
     let longest = KEYWORDS
         .iter()
         .filter(|(name, _)| rest.starts_with(name.as_bytes()))
@@ -127,7 +127,7 @@ pub(super) fn o_word<'a>(
     Ok(Some((label, keyword, scanner)))
 }
 
-/// A label that is the value of a parameter or of an expression: that of a call, as the others are
+/// Computes a label from a parameter or an expression. Only calls may have one; other labels are
 /// found before there are values.
 fn computed(scanner: &mut Scanner<'_>, values: Option<&dyn Values>) -> Result<String, Problem> {
     let value = values.map_or(Ok(0.0), |values| scanner.value(values))?;
@@ -144,21 +144,21 @@ fn computed(scanner: &mut Scanner<'_>, values: Option<&dyn Values>) -> Result<St
     Ok(format!("{whole}"))
 }
 
-/// A line with an O-word.
+/// Line with an O-word.
 #[derive(Debug)]
 pub(super) struct Place {
     pub(super) keyword: Keyword,
-    /// Its line, from 1.
+    /// Line, from 1.
     pub(super) line: usize,
-    /// Where it begins.
+    /// Offset of the line.
     pub(super) start: usize,
-    /// Where the next line begins.
+    /// Offset of the next line.
     pub(super) next: usize,
-    /// Where its block goes on: the next branch of an IF, the end of others.
+    /// Continuation of its block: the next branch of an IF, the end of others.
     pub(super) onward: Option<usize>,
-    /// The first line of its block, or of the loop it leaves.
+    /// First line of its block, or of the loop it leaves.
     pub(super) head: Option<usize>,
-    /// The last line of its block.
+    /// Last line of its block.
     pub(super) end: Option<usize>,
 }
 
@@ -171,8 +171,7 @@ pub(super) struct Index {
 }
 
 impl Index {
-    /// Looks through a text. Lines that cannot be read are passed over: if they are run, they are
-    /// refused.
+    /// Indexes a text. Unreadable lines are skipped: they are refused when they are executed.
     pub(super) fn of(text: &[u8]) -> Self {
         let mut index = Index::default();
         let mut open: Vec<(usize, String)> = Vec::new();
@@ -217,7 +216,7 @@ impl Index {
             let head = open.get(depth).map_or(here, |(head, _)| *head);
             let ends = !matches!(keyword, K::ElseIf | K::Else);
             place.head = Some(head);
-            // Every branch of the block learns where the next one is, and where all ends.
+            // Every branch of the block refers to the next one, and to the end.
             let mut at = Some(head);
             while let Some(branch) = at.and_then(|at| self.places.get_mut(at)) {
                 at = branch.onward;
@@ -249,24 +248,24 @@ impl Index {
         self.places.push(place);
     }
 
-    /// The O-word in the line that begins at an offset.
+    /// Returns the O-word in the line at an offset.
     pub(super) fn at(&self, start: usize) -> Option<usize> {
         self.places
             .binary_search_by_key(&start, |place| place.start)
             .ok()
     }
 
-    /// Whether there is a SUB.
+    /// True if there is a SUB.
     pub(super) fn has_subs(&self) -> bool {
         !self.subs.is_empty()
     }
 
-    /// The SUB of a label.
+    /// Returns the SUB of a label.
     pub(super) fn sub(&self, label: &str) -> Option<usize> {
         self.subs.get(label).copied()
     }
 
-    /// The program of a number.
+    /// Returns the program of a number.
     pub(super) fn program(&self, label: &str) -> Option<usize> {
         self.programs.get(label).copied()
     }

@@ -1,7 +1,7 @@
-//! Rotations in the X-Y plane: G68, and that of a coordinate system by G10 L2 R.
+//! Rotations in the X-Y plane: by G68, and of a coordinate system by G10 L2 R.
 //!
-//! The reader works in coordinates that are not rotated. What is kept or goes out, such as the ends
-//! of moves and reference points, is in those of the machine.
+//! The reader works in unrotated coordinates. Stored and emitted points, such as ends of moves and
+//! reference points, are in machine coordinates.
 
 use super::block::{Block, Code, name};
 use super::machine::{Machine, Words};
@@ -10,7 +10,7 @@ use super::offsets::Own;
 use super::problem::Problem;
 use crate::input::{Course, Point};
 
-/// A rotation with a shift, from the coordinates of the reader to those of the machine.
+/// Rotation with a shift, from reader to machine coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Frame {
     cos: f64,
@@ -19,7 +19,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// A rotation about a point, counter-clockwise.
+    /// Creates a counter-clockwise rotation about a point.
     fn about([x, y]: [f64; 2], degrees: f64) -> Self {
         let (sin, cos) = sin_cos(degrees);
         Self {
@@ -29,7 +29,7 @@ impl Frame {
         }
     }
 
-    /// The rotation that follows another one.
+    /// Returns the rotation after another one.
     fn after(self, first: Self) -> Self {
         Self {
             cos: self.cos * first.cos - self.sin * first.sin,
@@ -52,7 +52,7 @@ impl Frame {
     }
 }
 
-/// Sine and cosine, exact at right angles.
+/// Returns sine and cosine, exact at right angles.
 pub(super) fn sin_cos(degrees: f64) -> (f64, f64) {
     match degrees.rem_euclid(360.0) {
         0.0 => (0.0, 1.0),
@@ -63,33 +63,33 @@ pub(super) fn sin_cos(degrees: f64) -> (f64, f64) {
     }
 }
 
-/// G68: its centre from the program's zero, in millimetres, and its angle.
+/// State of G68: centre from the program's zero, in millimetres, and angle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Turn {
     centre: [f64; 2],
     degrees: f64,
 }
 
-/// Rotation in force.
+/// Current rotation.
 #[derive(Debug, Default)]
 pub(super) struct Rotation {
     turn: Option<Turn>,
     frame: Option<Frame>,
-    /// G68 or G69 came, and no move to both X and Y yet: controls differ in where the program is.
+    /// Code after which no move to both X and Y has come: controls differ in the position.
     unsettled: Option<Code>,
     /// Start of the line's move.
     began: Point,
 }
 
 impl Machine<'_> {
-    /// A place of the reader as the machine has it.
+    /// Converts a point from reader to machine coordinates.
     pub(super) fn turned(&self, [x, y, z]: Point) -> Point {
         let frame = self.rotation.frame;
         let [x, y] = frame.map_or([x, y], |frame| frame.turn([x, y]));
         [x, y, z]
     }
 
-    /// A place of the machine as the reader has it.
+    /// Converts a point from machine to reader coordinates.
     pub(super) fn unturned(&self, [x, y, z]: Point) -> Point {
         let frame = self.rotation.frame;
         let [x, y] = frame.map_or([x, y], |frame| frame.back([x, y]));
@@ -100,14 +100,14 @@ impl Machine<'_> {
         self.rotation.frame.is_some()
     }
 
-    /// The frame of a coordinate system, without G68.
+    /// Returns the frame of a coordinate system, without G68.
     pub(super) fn frame_of(&self, system: usize) -> Option<Frame> {
         let degrees = self.offsets.rotation(system);
         let ([x, y, _], [tool_x, tool_y, _]) = (self.offsets.system(system), self.modal.tool);
         (degrees != 0.0).then(|| Frame::about([x + tool_x, y + tool_y], degrees))
     }
 
-    /// Keeps the place of the tool where what rotates the coordinates has changed.
+    /// Keeps the tool's position when the rotation changes.
     pub(super) fn reframe(&mut self) {
         let zero = self.zero();
         let turn = self.rotation.turn.map(|turn| {
@@ -125,7 +125,7 @@ impl Machine<'_> {
         }
     }
 
-    /// The place of the tool as a coordinate system would show it.
+    /// Returns the position of the tool in a coordinate system.
     pub(super) fn shown_by(&self, system: usize) -> [f64; 2] {
         let [x, y, _] = self.turned(self.at);
         let place = self
@@ -136,7 +136,7 @@ impl Machine<'_> {
         [0, 1].map(|axis| place[axis] - zero[axis] - shift[axis] - tool[axis])
     }
 
-    /// G68.
+    /// Executes G68.
     pub(super) fn rotate(
         &mut self,
         block: &mut Block,
@@ -172,14 +172,15 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// G69.
+    /// Executes G69.
     pub(super) fn end_rotation(&mut self) {
         if self.rotation.turn.take().is_some() {
             self.rotation.unsettled = Some((69, 0));
         }
     }
 
-    /// Refuses what controls do not take, or take differently, under G68 and right behind it.
+    /// Returns an error for words that controls reject or interpret differently under G68 and just
+    /// after it.
     pub(super) fn fits_rotation(&self, words: &Words, system: bool) -> Result<(), Problem> {
         if self.rotation.turn.is_none() {
             return Ok(());
@@ -195,7 +196,7 @@ impl Machine<'_> {
         Err(Problem::new(field, "under G68", "G69 before"))
     }
 
-    /// Has the first move behind G68 or G69 name its place as a whole.
+    /// Requires the first move after G68 or G69 to give its full position.
     pub(super) fn settle(&mut self, block: &Block, motion: Motion) -> Result<(), Problem> {
         self.rotation.began = self.at;
         let Some(code) = self.rotation.unsettled else {
@@ -210,7 +211,7 @@ impl Machine<'_> {
                 self.rotation.unsettled = None;
                 return Ok(());
             }
-            // Behind G68 it is the step that turns, wherever the centre is.
+            // After G68 an increment is rotated, wherever the centre is.
             _ if self.modal.relative && code == (68, 0) && (x || y) => return Ok(()),
             _ => {}
         }
@@ -219,8 +220,8 @@ impl Machine<'_> {
         Err(Problem::new("X, Y", problem, allowed))
     }
 
-    /// The course of a piece as the machine has it. A full circle ends where it begins, whatever is
-    /// rounded.
+    /// Returns the course of a piece in machine coordinates. A full circle ends where it begins,
+    /// despite rounding.
     pub(super) fn turned_piece(&mut self, to: Point, course: Course) -> (Point, Course) {
         let from = std::mem::replace(&mut self.rotation.began, to);
         if !self.is_turned() {

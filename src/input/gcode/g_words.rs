@@ -1,4 +1,4 @@
-//! What the G words of a line choose.
+//! G words of a line.
 
 use super::block::{Block, Code, name};
 use super::codes;
@@ -17,7 +17,7 @@ const G_CODES: &str = "G0 to G5 G5.1 to G5.3 G6.2 G8 G10 G11 G15 to G21 G28 G30 
                                   G97 to G99";
 
 impl Machine<'_> {
-    /// Reads the G words of a line, and puts in force what stays so.
+    /// Reads the G words of a line, and sets the modal ones.
     pub(super) fn g_words(&mut self, line: usize, block: &mut Block) -> Result<Words, Problem> {
         let mut words = Words::default();
         let (mut plane, mut units, mut distance) = (None, None, None);
@@ -63,7 +63,7 @@ impl Machine<'_> {
                     choose(&mut words.own, code, Own::Turn)?;
                 }
                 (69, 0) => choose(&mut turn, code, false)?,
-                // What is so anyway: no compensation, diameter or scaling.
+                // Always in force: no compensation, diameter or scaling.
                 (8 | 40 | 50 | 97, 0) | (50, 1) | (69, 1) => {
                     if code.0 == 50 && block.axes().iter().any(Option::is_some) {
                         let problem = "sets coordinates, as controls of lathes do";
@@ -86,7 +86,7 @@ impl Machine<'_> {
                 (43, 2) => choose(&mut words.length, code, Length::Add)?,
                 (43, 1) => choose(&mut words.own, code, Own::Length)?,
                 (10, 0) if block.letter(b'L').is_some() => choose(&mut words.own, code, Own::Set)?,
-                // Printers take filament back, and level their bed.
+                // Printers retract filament, and level their bed.
                 (10 | 11 | 29 | 34, 0) if block.given().next().is_none() => {
                     self.say_nothing(&name('G', code), line)?;
                 }
@@ -155,7 +155,7 @@ fn set<T>(place: &mut T, chosen: Option<(Code, T)>) {
     }
 }
 
-/// Sets what the words of a line may choose once; saying it again is no harm.
+/// Sets a choice that a line may make once; repeating the same word is allowed.
 fn choose<T>(place: &mut Option<(Code, T)>, code: Code, value: T) -> Result<(), Problem> {
     if let Some((other, _)) = place
         && *other != code

@@ -1,11 +1,11 @@
-//! Parameters that the machine keeps: where it is, and what is in force.
+//! Parameters maintained by the machine: its position and modal state.
 
 use super::machine::Machine;
 use super::modal::{Motion, Plane};
 use crate::input::Point;
 
 impl Machine<'_> {
-    /// The value of a parameter that the machine keeps, in the units in force.
+    /// Returns the value of a numbered parameter that the machine maintains, in the current units.
     pub(super) fn parameter(&self, number: u32) -> Option<f64> {
         let units = self.modal.mm_per_unit;
         let axis = |base: u32| (number - base) as usize;
@@ -31,7 +31,7 @@ impl Machine<'_> {
         }
     }
 
-    /// The value of a name that the machine keeps.
+    /// Returns the value of a named parameter that the machine maintains.
     pub(super) fn named(&self, name: &str) -> Option<f64> {
         let units = self.modal.mm_per_unit;
         let flag = |holds: bool| Some(f64::from(u8::from(holds)));

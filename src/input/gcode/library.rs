@@ -1,4 +1,4 @@
-//! Texts that are run: the program, and files with subroutines that it calls.
+//! Texts that are executed: the program, and files with subroutines that it calls.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -11,16 +11,16 @@ use super::problem::Problem;
 use super::text;
 use crate::input::{LARGEST_FILE, read_bytes};
 
-/// How the name of a file of subroutines ends; `.ngc` goes before the others.
+/// Extensions of subroutine files; `.ngc` has precedence.
 const ENDINGS: [&str; 6] = ["ngc", "nc", "gcode", "tap", "gc", "cnc"];
 
 const ALLOWED: &str =
     "subroutines of the file itself, and of files in the directories of --subroutines";
 
-/// A text and its O-words.
+/// Text with its O-words.
 #[derive(Debug)]
 pub(super) struct Source<'a> {
-    /// Its path; none of the program itself.
+    /// Path; `None` for the program itself.
     pub(super) file: Option<String>,
     pub(super) text: Cow<'a, [u8]>,
     index: OnceCell<Index>,
@@ -43,17 +43,17 @@ impl<'a> Source<'a> {
         self.index.get_or_init(|| Index::of(&self.text))
     }
 
-    /// The O-words, if they were looked for.
+    /// Returns the O-words, if they were indexed.
     pub(super) fn known_index(&self) -> Option<&Index> {
         self.index.get()
     }
 }
 
-/// The directories of the subroutines, and the files that were read.
+/// Directories of the subroutines, and the files that were read.
 #[derive(Debug)]
 pub(super) struct Library<'a> {
     directories: &'a [PathBuf],
-    /// By label, also those that are not there.
+    /// Files by label, including missing ones.
     files: HashMap<String, Option<Rc<Source<'a>>>>,
 }
 
@@ -65,12 +65,12 @@ impl<'a> Library<'a> {
         }
     }
 
-    /// The file with the subroutine or program of a label, if there is one.
+    /// Returns the file with the subroutine or program of a label, if there is one.
     ///
     /// # Errors
     ///
-    /// A label that is no plain name, directories or files that cannot be read, and several files
-    /// of which each may be meant.
+    /// Returns an error for a label that is not a plain name, directories or files that cannot be
+    /// read, and ambiguous files.
     pub(super) fn find(
         &mut self,
         field: &str,
@@ -102,7 +102,7 @@ impl<'a> Library<'a> {
 
     fn read(&self, field: &str, path: &Path) -> Result<Rc<Source<'a>>, Problem> {
         let file = path.display().to_string();
-        // A pipe would wait for somebody to write into it.
+        // A pipe would block until somebody writes into it.
         if !path.metadata().is_ok_and(|metadata| metadata.is_file()) {
             let problem = format!("calls {file}, which is not a regular file");
             return Err(Problem::new(field, problem, "a readable file"));
@@ -119,14 +119,15 @@ impl<'a> Library<'a> {
     }
 }
 
-/// A call of what is nowhere.
+/// Returns the error of a call to a missing subroutine.
 pub(super) fn not_there(field: &str, what: &str) -> Problem {
     let problem = format!("calls {what}, which is not in this file");
     Problem::new(field, problem, ALLOWED)
 }
 
-/// The names, without their endings and in small letters, that a file of a label may have: of
-/// `<name>` that name, of 2 `2`, `o2` and `o0002`. None where the label is no plain name.
+/// Returns the names, without extension and in lower case, that the file of a label may have: for
+/// `<name>` that name, for 2 `2`, `o2` and `o0002`. Returns `None` if the label is not a plain
+/// name.
 fn stems(label: &str) -> Option<Vec<String>> {
     if label.bytes().all(|byte| byte.is_ascii_digit()) {
         return Some(vec![
@@ -141,8 +142,8 @@ fn stems(label: &str) -> Option<Vec<String>> {
     whole.then(|| vec![name.to_owned()])
 }
 
-/// The file of a directory that has one of the names, in letters of either case. One that ends in
-/// `.ngc` in small letters goes before all others, as it is the one that LinuxCNC takes.
+/// Returns the file of a directory that has one of the names, in either case. One that ends in
+/// `.ngc` in lower case has precedence, as LinuxCNC uses it.
 fn in_directory(
     field: &str,
     directory: &Path,

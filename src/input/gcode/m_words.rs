@@ -8,7 +8,7 @@ use super::problem::Problem;
 const ALLOWED: &str = "M words that neither move nor change the path";
 
 impl Machine<'_> {
-    /// Runs or skips the M words of a line.
+    /// Executes or skips the M words of a line.
     pub(super) fn m_words(&mut self, line: usize, block: &mut Block) -> Result<(), Problem> {
         for index in 0..block.m.len() {
             let Some(&code) = block.m.get(index) else {
@@ -28,7 +28,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// M70 to M72.
+    /// Executes M70 to M72.
     fn keep_or_restore(&mut self, code: Code, word: &str) -> Result<(), Problem> {
         match code.0 {
             70 => self.saved = Some(self.modal),
@@ -47,11 +47,12 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Takes out the letters of an M word that is skipped.
+    /// Removes the letters of an M word that is skipped.
     ///
     /// # Errors
     ///
-    /// A letter that may be another word's too, and one by which the M word would change the path.
+    /// Returns an error for a letter that may belong to another word too, and for one by which the
+    /// M word would change the path.
     fn letters_of(&self, code: Code, word: &str, block: &mut Block) -> Result<(), Problem> {
         for letter in codes::m_changes(code) {
             if block.letter(*letter).is_some_and(|value| value != 0.0) {
@@ -73,7 +74,7 @@ impl Machine<'_> {
             return Ok(());
         }
         for &letter in own.unwrap_or(b"PQLESR") {
-            // One turn of an arc is what it makes anyway.
+            // One turn is the default of an arc.
             let one_turn = letter == b'P' && block.letter(letter) == Some(1.0);
             if block.letter(letter).is_some() && self.wanted(letter, block, one_turn) {
                 let problem = format!("with {word} and a G word that has it too");
@@ -84,7 +85,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// True if a letter has a meaning for the path by a G word of the line, or the one in force.
+    /// True if a letter affects the path through a G word of the line or the current motion.
     fn wanted(&self, letter: u8, block: &Block, one_turn: bool) -> bool {
         let in_force = self.modal.motion.filter(|_| block.moves());
         let in_force = in_force.map(|motion| motion.code());

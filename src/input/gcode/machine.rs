@@ -1,4 +1,4 @@
-//! What the words of a line do, given the lines before it.
+//! Effect of a line's words, given the lines before it.
 
 use super::block::{Block, Code};
 use super::cycle::Cycle;
@@ -12,22 +12,22 @@ use super::tools::{Length, Tools};
 use crate::input::track::Track;
 use crate::input::{Course, Drawing, Fault, Move, Options, Point};
 
-/// A piece of the move of a line.
+/// Piece of a line's move.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece {
     pub(super) to: Point,
     pub(super) course: Course,
     pub(super) rapid: bool,
-    /// Its length in millimetres, where an inverse time needs it.
+    /// Length in millimetres, needed by an inverse time feed.
     pub(super) length: f64,
 }
 
-/// The machine: its modal state, its offsets, and the moves it has made.
+/// Machine: its modal state, its offsets, and its moves so far.
 pub(super) struct Machine<'a> {
     pub(super) track: Track<'a>,
-    /// The programmed position from the machine's zero, in millimetres, not rotated.
+    /// Programmed position from the machine's zero, in millimetres, unrotated.
     pub(super) at: Point,
-    /// W likewise, where it is an axis: before the line that is run, and behind it.
+    /// W in millimetres before and after the current line, if it is an axis.
     w: [f64; 2],
     fourth: bool,
     pub(super) modal: Modal,
@@ -36,23 +36,23 @@ pub(super) struct Machine<'a> {
     pub(super) tools: Tools,
     pub(super) cycle: Cycle,
     pub(super) rotation: Rotation,
-    /// The last radius and angle under G16.
+    /// Last radius and angle under G16.
     pub(super) polar: Option<Polar>,
-    /// The end control point of a G5 from its end, for the one that follows.
+    /// End control point of a G5 relative to its end, for the next one.
     pub(super) last_control: Option<[f64; 2]>,
-    /// The NURBS that is being read.
+    /// NURBS under construction.
     pub(super) nurbs: Option<Nurbs>,
     pub(super) pieces: Vec<Piece>,
-    /// The instruction that made them.
+    /// Instruction that made the pieces.
     pub(super) made_by: String,
-    /// F as it is written.
+    /// F as written.
     pub(super) feed_word: Option<f64>,
     pub(super) spindle: f64,
     pub(super) tool: f64,
-    /// The tool that M6 or M61 has put into the spindle, if known.
+    /// Tool that M6 or M61 has loaded, if known.
     pub(super) loaded: Option<f64>,
     pub(super) strict: bool,
-    /// G5 and G5.1 are no chords.
+    /// True if G5 and G5.1 are not converted to chords.
     pub(super) splines: bool,
 }
 
@@ -91,7 +91,7 @@ impl<'a> Machine<'a> {
         self.track.fault(line, it.field, it.problem, it.allowed)
     }
 
-    /// The drawing; the program may have been subroutines alone.
+    /// Returns the drawing; `subs` is true if the program may consist of subroutines only.
     pub(super) fn finish(self, subs: bool) -> Result<Drawing, Fault> {
         if let Some(curve) = &self.nurbs {
             let allowed = "G5.3 behind a G5.2, and as many equal knots as the order behind a G6.2";
@@ -117,7 +117,7 @@ impl<'a> Machine<'a> {
         self.track.note(word, line, || format!("{word}: skipped"));
     }
 
-    /// Skips what says nothing about the path, unless the reader is strict.
+    /// Skips a word without effect on the path, unless the reader is strict.
     pub(super) fn say_nothing(&mut self, word: &str, line: usize) -> Result<(), Problem> {
         if self.strict {
             let problem = "says nothing about the path, which --strict refuses";
@@ -127,7 +127,7 @@ impl<'a> Machine<'a> {
         Ok(())
     }
 
-    /// Records the moves of the line that was run, and that belongs to a line of the program.
+    /// Records the moves of the executed line, under its line of the program.
     pub(super) fn push(&mut self, line: usize, of_program: usize) -> Result<(), Problem> {
         let total: f64 = self.pieces.iter().map(|piece| piece.length).sum();
         let [from, end] = self.w;
@@ -152,7 +152,7 @@ impl<'a> Machine<'a> {
                 line: of_program,
             };
             length += piece.length;
-            // The chords and turns of an arc have their parts of W.
+            // Chords and turns of an arc have their shares of W.
             let w = match index == last || end == from {
                 true => end,
                 false => from + (end - from) * (length / total),
@@ -167,8 +167,8 @@ impl<'a> Machine<'a> {
         Ok(())
     }
 
-    /// Runs the words of a line, and says how many more lines it counts for. The order is: units,
-    /// planes and distances, feed, M words, offsets, then the move.
+    /// Executes the words of a line, and returns the number of additional lines that it counts
+    /// for. The order is: units, planes and distances, feed, M words, offsets, then the move.
     pub(super) fn run(&mut self, line: usize, block: &mut Block) -> Result<u64, Problem> {
         self.pieces.clear();
         self.w[0] = self.w();
@@ -213,7 +213,7 @@ impl<'a> Machine<'a> {
         self.motion(line, block, &words)
     }
 
-    /// Skips the I of inline power, which lasers have. With an arc it may be a centre's.
+    /// Skips the I of inline power of lasers. With an arc it may belong to a centre.
     fn inline_power(&mut self, line: usize, block: &Block, words: &Words) -> Result<(), Problem> {
         if !block.inline {
             return Ok(());
@@ -231,7 +231,7 @@ impl<'a> Machine<'a> {
         self.say_nothing("I", line)
     }
 
-    /// Puts the tool into the spindle that T has chosen, in this line or before.
+    /// Loads the tool that T has chosen, in this line or before.
     fn change_tool(&mut self, block: &Block) {
         if block.m.contains(&(6, 0)) {
             let chosen = block.letter(b'T').unwrap_or(self.tool);
@@ -241,12 +241,12 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// Where W is, from the machine's zero, in millimetres.
+    /// Returns the position of W from the machine's zero, in millimetres.
     pub(super) fn w(&self) -> f64 {
         self.w[1]
     }
 
-    /// Takes the word of W for the end of a line's move.
+    /// Sets the end of W from its word.
     pub(super) fn move_w(&mut self, block: &mut Block, machine: bool) {
         if let Some(word) = block.take(b'W').map(|word| word * self.modal.mm_per_unit) {
             let relative = self.modal.relative && !machine;
@@ -254,8 +254,8 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// Rotary and parallel axes, which no circuit has, may be named as long as they stand still; W
-    /// where it is no axis.
+    /// Checks the rotary and parallel axes, which no circuit has: they may be named as long as
+    /// they do not move. Includes W if it is not an axis.
     fn still_axes(&mut self, line: usize, block: &mut Block) -> Result<(), Problem> {
         let letters = [b'A', b'B', b'C', b'U', b'V', b'W'];
         for letter in &letters[..if self.fourth { 5 } else { 6 }] {
@@ -282,7 +282,7 @@ impl<'a> Machine<'a> {
     }
 
     fn feed(&mut self, block: &mut Block) -> Result<(), Problem> {
-        // An inverse time holds for its line alone.
+        // An inverse time is valid for its line only.
         let word = block.take(b'F');
         if self.modal.inverse_time {
             self.feed_word = None;
@@ -302,22 +302,22 @@ impl<'a> Machine<'a> {
     }
 }
 
-/// What the G words of a line choose.
+/// Choices made by the G words of a line.
 #[derive(Debug, Default)]
 pub(super) struct Words {
     pub(super) motion: Option<(Code, Motion)>,
-    /// An instruction that takes the axis words for itself.
+    /// Instruction that takes the axis words for itself.
     pub(super) own: Option<(Code, Own)>,
-    /// A tool length from the table of tools.
+    /// Tool length from the tool table.
     pub(super) length: Option<(Code, Length)>,
     pub(super) cancels: bool,
-    /// G53.
+    /// True for G53.
     pub(super) machine: bool,
     pub(super) dwell: bool,
 }
 
 impl Machine<'_> {
-    /// An inverse time is given in every line that moves.
+    /// Returns an error unless the line gives a feed under inverse time.
     pub(super) fn needs_feed(&self) -> Result<(), Problem> {
         match self.feed_word {
             Some(_) => Ok(()),

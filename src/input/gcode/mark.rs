@@ -1,11 +1,11 @@
-//! Where in a line what a message names is.
+//! Position in a line of the word that a message names.
 
 use std::ops::Range;
 
 use super::problem::Problem;
 use super::text::each;
 
-/// The bytes of a line that a problem is about: the word it names, else all words.
+/// Returns the bytes of a line that a problem is about: the word it names, else all words.
 pub(super) fn find(line: &[u8], problem: &Problem) -> Range<usize> {
     let (mut kept, mut places) = (Vec::new(), Vec::new());
     let cleaned = each(line, |at, byte| {
@@ -17,7 +17,7 @@ pub(super) fn find(line: &[u8], problem: &Problem) -> Range<usize> {
     }
     let named = problem.field.split(", ").find_map(|name| word(&kept, name));
     let within = problem.at.clone().or(named).unwrap_or(0..kept.len());
-    // A blank stands for a comment.
+    // A blank represents a comment.
     let is_blank = |at: &usize| kept.get(*at) == Some(&b' ');
     let mut at = within.skip_while(is_blank);
     let first = at.next();
@@ -29,7 +29,7 @@ pub(super) fn find(line: &[u8], problem: &Problem) -> Range<usize> {
     }
 }
 
-/// The comment that is not closed, or the character that may not be there.
+/// Returns the comment that is not closed, or the invalid character.
 fn unreadable(line: &[u8], field: &str) -> Range<usize> {
     let begin = match field {
         "comment" => line.iter().position(|&byte| byte == b'('),
@@ -44,7 +44,7 @@ fn unreadable(line: &[u8], field: &str) -> Range<usize> {
     }
 }
 
-/// A word by its letter, or by letter and number, or else a text as it stands.
+/// Returns a word by its letter, or by letter and number, or a text as written.
 fn word(line: &[u8], name: &str) -> Option<Range<usize>> {
     let (letter, number) = name.split_at_checked(1)?;
     let letter = letter.as_bytes().first()?;
@@ -75,7 +75,7 @@ fn word(line: &[u8], name: &str) -> Option<Range<usize>> {
     Some(found..found + text.len())
 }
 
-/// Where the value ends that begins there: before the next word.
+/// Returns the end of the value that begins at `begin`: before the next word.
 fn value_end(line: &[u8], begin: usize) -> usize {
     let mut depth = 0_usize;
     for (at, byte) in line.iter().enumerate().skip(begin) {
@@ -107,7 +107,7 @@ mod tests {
         assert_eq!(found(line, "G1"), "g01");
         assert_eq!(found(line, "#<x>"), "#<x>");
         assert_eq!(found(line, "SIN[9..."), "sin[9");
-        // Not there: all of it.
+        // Missing: all words.
         assert_eq!(found(line, "G2"), "N10 g01 (X) X 1 0 Y[#<x> + sin[9]] i-2");
         assert_eq!(found(line, "S"), found(line, "G2"));
         assert_eq!(found("", "X"), "");

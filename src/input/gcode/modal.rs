@@ -1,9 +1,9 @@
-//! What stays in force from line to line.
+//! Modal state: values that stay in force from line to line.
 
 use super::block::{Code, name};
 use crate::input::Point;
 
-/// How axis words make a move.
+/// Motion made by axis words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Motion {
     Rapid,
@@ -21,14 +21,14 @@ pub(super) enum Motion {
     NurbsEnd,
     /// G6.2.
     KnottedNurbs,
-    /// G38.2 to G38.5: as if nothing was touched.
+    /// G38.2 to G38.5, executed as if nothing was touched.
     Probe,
     /// G73, G81 to G86 and G89.
     Cycle(u32),
 }
 
 impl Motion {
-    /// The G word that chooses it; of a probe G38.
+    /// Returns the G word of the motion; G38 for a probe.
     pub(super) fn code(self) -> Code {
         match self {
             Self::Rapid => (0, 0),
@@ -50,7 +50,7 @@ impl Motion {
     }
 }
 
-/// The plane of arcs.
+/// Plane of arcs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Plane {
     Xy,
@@ -59,7 +59,7 @@ pub(super) enum Plane {
 }
 
 impl Plane {
-    /// The two axes in it, and the third, so that they turn right.
+    /// Returns the two axes of the plane and the third, right-handed.
     pub(super) fn axes(self) -> [usize; 3] {
         match self {
             Self::Xy => [0, 1, 2],
@@ -69,25 +69,25 @@ impl Plane {
     }
 }
 
-/// The modal state of a machine.
+/// Modal state of a machine.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Modal {
     pub(super) motion: Option<Motion>,
     pub(super) plane: Plane,
     pub(super) relative: bool,
-    /// I, J and K are coordinates (G90.1).
+    /// True if I, J and K are coordinates (G90.1).
     pub(super) centres_absolute: bool,
     pub(super) mm_per_unit: f64,
     pub(super) feed_mm_per_min: Option<f64>,
-    /// F is one over the minutes of a move (G93).
+    /// True if F is one over the minutes of a move (G93).
     pub(super) inverse_time: bool,
-    /// Cycles end at R (G99).
+    /// True if cycles end at R (G99).
     pub(super) ends_at_r: bool,
-    /// The program has chosen where cycles end.
+    /// True if the program has chosen G98 or G99.
     pub(super) end_chosen: bool,
-    /// Length of the tool.
+    /// Tool length.
     pub(super) tool: Point,
-    /// The coordinate system, from 0 for G54.
+    /// Coordinate system; 0 is G54.
     pub(super) system: usize,
 }
 

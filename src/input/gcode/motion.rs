@@ -1,4 +1,4 @@
-//! The move of a line: lines, arcs and curves.
+//! Motion of a line: lines, arcs and curves.
 
 use std::f64::consts::TAU;
 
@@ -12,14 +12,15 @@ use crate::input::{Course, Point, ZERO_MM};
 
 const FORMS: &str = "either I and J (the centre from the start) or R (the radius)";
 
-/// The most turns of one arc.
+/// Greatest number of turns of an arc.
 const TURNS: f64 = 1.0e4;
 
-/// The most moves of one line.
+/// Greatest number of moves of one line.
 const MOST_PIECES: usize = 1_000_000;
 
 impl Machine<'_> {
-    /// The move of a line, where its words make one; says how many more lines it counts for.
+    /// Makes the move of a line, if there is one; returns the number of additional lines that it
+    /// counts for.
     pub(super) fn motion(
         &mut self,
         line: usize,
@@ -104,17 +105,17 @@ impl Machine<'_> {
         self.made(block, holes)
     }
 
-    /// What there is to check of the moves that a line has made.
+    /// Checks the moves that a line has made.
     fn made(&mut self, block: &mut Block, holes: Option<u64>) -> Result<u64, Problem> {
         if self.modal.inverse_time && self.pieces.iter().any(|piece| !piece.rapid) {
             self.needs_feed()?;
         }
         self.leftover(block)?;
-        // Holes and chords count as if each had been written.
+        // Holes and chords count as separate lines.
         Ok(holes.unwrap_or_else(|| (self.pieces.len() as u64).saturating_sub(1)))
     }
 
-    /// The end of a line from its axis words.
+    /// Returns the end of a line from its axis words.
     fn target(&self, block: &Block, machine: bool) -> Point {
         let zero = if machine { [0.0; 3] } else { self.zero() };
         let mut to = if machine {
@@ -131,7 +132,7 @@ impl Machine<'_> {
         if machine { self.unturned(to) } else { to }
     }
 
-    /// Refuses what no instruction of the line has used.
+    /// Returns an error for words that no instruction of the line has used.
     fn leftover(&self, block: &Block) -> Result<u64, Problem> {
         let mut given = block
             .given()
@@ -203,7 +204,7 @@ impl Machine<'_> {
         };
         arc::check(start, end, centre, arc::off_mm(units))
             .map_err(|(problem, allowed)| Problem::new("I, J", problem, allowed).following())?;
-        // Rounding must not turn a full circle into next to nothing.
+        // Rounding must not shrink a full circle to nothing.
         let mut end_point = to;
         if (end[0] - start[0]).abs() < ZERO_MM && (end[1] - start[1]).abs() < ZERO_MM {
             let here = match self.is_turned() {
@@ -237,7 +238,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// At most one turn of an arc: as such in the X-Y plane, as chords in the others.
+    /// Adds at most one turn of an arc: as an arc in the X-Y plane, as chords in the others.
     fn turn(
         &mut self,
         line: usize,
@@ -265,7 +266,7 @@ impl Machine<'_> {
         }
     }
 
-    /// Bounds the moves of one line.
+    /// Checks the number of moves of one line.
     pub(super) fn not_too_many(&self) -> Result<(), Problem> {
         if self.pieces.len() <= MOST_PIECES {
             return Ok(());
@@ -284,7 +285,7 @@ impl Machine<'_> {
         self.note("chords", line, text);
     }
 
-    /// G5 and G5.1.
+    /// Executes G5 and G5.1.
     fn spline(
         &mut self,
         line: usize,

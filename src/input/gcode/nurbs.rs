@@ -1,8 +1,8 @@
-//! NURBS: G5.2 with G5.3, and G6.2, as LinuxCNC has them.
+//! NURBS as in LinuxCNC: G5.2 with G5.3, and G6.2.
 //!
-//! The lines of a G5.2 give control points with their weights P, from where the tool is, up to G5.3;
-//! L of the first is the order. Those of a G6.2 give control points with their weights R and knots
-//! K; P of the first is the order, and as many equal knots at the end close it.
+//! The lines of a G5.2 give control points with weights P, from the tool's position, up to G5.3; L
+//! of the first line is the order. The lines of a G6.2 give control points with weights R and
+//! knots K; P of the first line is the order, and that number of equal knots ends the curve.
 
 use super::block::Block;
 use super::chords;
@@ -11,27 +11,27 @@ use super::modal::Motion;
 use super::problem::Problem;
 use crate::input::Point;
 
-/// The order without L.
+/// Default order.
 const USUAL_ORDER: usize = 3;
 
-/// The highest order.
+/// Greatest order.
 const HIGHEST_ORDER: usize = 20;
 
-/// A curve in the making.
+/// Curve under construction.
 #[derive(Debug)]
 pub(super) struct Nurbs {
-    /// The line that began it.
+    /// Line that began the curve.
     pub(super) line: usize,
-    /// By G6.2.
+    /// True for a G6.2.
     knotted: bool,
     order: usize,
-    /// In the plane in force, in millimetres.
+    /// Control points in the current plane, in millimetres.
     points: Vec<Weighted>,
-    /// A knot for each line of a G6.2.
+    /// Knots, one for each line of a G6.2.
     knots: Vec<f64>,
 }
 
-/// A control point and its weight.
+/// Control point with its weight.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Weighted {
     pub(super) at: [f64; 2],
@@ -43,7 +43,7 @@ impl Nurbs {
         if self.knotted { "G6.2" } else { "G5.2" }
     }
 
-    /// Whether the knots of a G6.2 end: there are as many equal ones as its order.
+    /// True if the knots of a G6.2 end: the last ones, as many as its order, are equal.
     fn ends(&self) -> bool {
         let count = self.knots.len();
         let last = self
@@ -53,7 +53,8 @@ impl Nurbs {
         count >= 2 * self.order && last.windows(2).all(|pair| pair[0] == pair[1])
     }
 
-    /// The knots of a G5.2, which has none of its own: evenly apart, the ends as often as the order.
+    /// Returns the knots of a G5.2, which gives none: evenly spaced, with the ends repeated as
+    /// often as the order.
     fn even_knots(&self) -> Vec<f64> {
         let spans = self.points.len() + 1 - self.order;
         let ends = |knot: usize| std::iter::repeat_n(knot as f64, self.order);
@@ -63,7 +64,8 @@ impl Nurbs {
 }
 
 impl Machine<'_> {
-    /// A line within a NURBS, or that begins or ends one; `to` is where its axis words lead.
+    /// Executes a line within a NURBS, or one that begins or ends it; `to` is the end of its axis
+    /// words.
     pub(super) fn nurbs(
         &mut self,
         line: usize,
@@ -148,7 +150,7 @@ impl Machine<'_> {
             let problem = format!("knot {knot} is less than the one before");
             return Err(Problem::new("K", problem, "knots that do not fall"));
         }
-        // Lines after the last control point have knots alone.
+        // Lines after the last control point have knots only.
         let at = if here { pick(&to) } else { start };
         push(at, weight);
         curve.knots.push(knot);
@@ -164,7 +166,7 @@ impl Machine<'_> {
         self.curve(line, &curve, knots, axes)
     }
 
-    /// Refuses other motions within a NURBS.
+    /// Returns an error for other motions within a NURBS.
     pub(super) fn not_within_nurbs(&self, words: &Words) -> Result<(), Problem> {
         let Some(curve) = &self.nurbs else {
             return Ok(());
@@ -192,7 +194,7 @@ impl Machine<'_> {
         Err(Problem::new(field, problem, allowed).following())
     }
 
-    /// The chords of a curve.
+    /// Adds the chords of a curve.
     fn curve(
         &mut self,
         line: usize,

@@ -6,7 +6,7 @@ use super::machine::{Machine, Piece};
 use super::problem::Problem;
 use crate::input::{Course, Point, Zeros};
 
-/// An instruction that takes the axis words for itself.
+/// Instruction that takes the axis words for itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Own {
     /// G10.
@@ -31,14 +31,14 @@ pub(super) enum Own {
     Resume,
 }
 
-/// Where the zeros are, from the machine's, in millimetres.
+/// Zeros in machine coordinates, in millimetres.
 #[derive(Debug)]
 pub(super) struct Offsets {
     zeros: Zeros,
-    /// Angles of the systems, in degrees.
+    /// Angles of the systems in degrees.
     rotations: [f64; 9],
     shift: Point,
-    /// What G92.2 put aside.
+    /// Offset suspended by G92.2.
     suspended: Point,
 }
 
@@ -56,7 +56,7 @@ impl Offsets {
         self.zeros.systems.get(number).copied().unwrap_or_default()
     }
 
-    /// The angle of a system by G10 L2 R, in degrees.
+    /// Returns the angle of a system by G10 L2 R, in degrees.
     pub(super) fn rotation(&self, number: usize) -> f64 {
         self.rotations.get(number).copied().unwrap_or_default()
     }
@@ -75,7 +75,7 @@ impl Offsets {
 }
 
 impl Machine<'_> {
-    /// The zero of the program from the machine's.
+    /// Returns the zero of the program from the machine's.
     pub(super) fn zero(&self) -> Point {
         let system = self.offsets.system(self.modal.system);
         let mut zero = self.offsets.shift;
@@ -85,7 +85,7 @@ impl Machine<'_> {
         zero
     }
 
-    /// The programmed position as the program sees it, in millimetres.
+    /// Returns the programmed position from the program's zero, in millimetres.
     pub(super) fn here(&self) -> Point {
         let mut here = self.at;
         for (here, zero) in here.iter_mut().zip(self.zero()) {
@@ -94,7 +94,7 @@ impl Machine<'_> {
         here
     }
 
-    /// Runs an instruction that takes the axis words for itself, and takes them out.
+    /// Executes an instruction that takes the axis words for itself, and removes them.
     pub(super) fn own(
         &mut self,
         line: usize,
@@ -103,14 +103,14 @@ impl Machine<'_> {
         moves: bool,
     ) -> Result<(), Problem> {
         let axes = block.axes();
-        // The axis words are its own, not those of a motion.
+        // The axis words belong to it, not to a motion.
         let takes = !matches!(own, Own::Forget | Own::Suspend | Own::Resume | Own::Keep(_));
         if takes && block.letter(b'W').is_some() {
             let problem = format!("with {}", name('G', code));
             return Err(Problem::new('W', problem, "X, Y and Z: W has no offsets"));
         }
         if moves && takes {
-            // G0 G28 X0 is common; what goes is G28.
+            // G0 G28 X0 is common; G28 makes the move.
             if !matches!(own, Own::Go(_) | Own::Shift | Own::Set) {
                 let problem = "together with a motion in one line";
                 return Err(Problem::new(name('G', code), problem, "a line of its own"));
@@ -149,7 +149,7 @@ impl Machine<'_> {
                 let system = self.offsets.system(self.modal.system);
                 let places = self.offsets.shift.iter_mut().zip(self.at).zip(system);
                 let places = places.zip(self.modal.tool);
-                // Printers reset their extruder with G92 E0; G92 alone means all axes.
+                // Printers reset their extruder with G92 E0; G92 alone applies to all axes.
                 if block.given().next().is_none() && !block.extruder {
                     for (((shift, at), system), tool) in places {
                         *shift = at - system - tool;
@@ -188,7 +188,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// G10: offsets of coordinate systems, lengths of tools.
+    /// Executes G10: offsets of coordinate systems, lengths of tools.
     fn set_offsets(
         &mut self,
         line: usize,
@@ -238,7 +238,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Where the zero of a system has to be for the tool to be at the given words.
+    /// Returns the zero of a system for which the tool is at the given words.
     fn zero_by_place(&self, system: usize, zero: Point, words: [Option<f64>; 3]) -> Point {
         let mut to = zero;
         let places = to.iter_mut().zip(self.turned(self.at)).zip(words);
@@ -249,7 +249,7 @@ impl Machine<'_> {
         let degrees = self.offsets.rotation(system);
         let [x, y, _] = words;
         if degrees != 0.0 && (x.is_some() || y.is_some()) {
-            // From where the system has it to where it shall be, as the machine goes.
+            // From the old to the new zero, in machine coordinates.
             let (sin, cos) = sin_cos(degrees);
             let [here_x, here_y] = self.shown_by(system);
             let (dx, dy) = (here_x - x.unwrap_or(here_x), here_y - y.unwrap_or(here_y));
@@ -259,8 +259,8 @@ impl Machine<'_> {
         to
     }
 
-    /// To a reference point by way of the axis words; without any, all axes go there. A letter
-    /// without a number is an axis that goes there straight.
+    /// Moves to a reference point through the point of the axis words; without any, all axes move
+    /// there. A letter without a number is an axis that moves there straight.
     fn go_home(
         &mut self,
         block: &mut Block,

@@ -1,29 +1,29 @@
-//! The parameters that a program sets, by numbers and by names.
+//! Parameters that a program sets, by number and by name.
 
 use std::collections::HashMap;
 
 use super::expression::Name;
 use super::problem::Problem;
 
-/// The largest number of a parameter.
+/// Greatest number of a parameter.
 const LARGEST: u32 = 5602;
 
-/// Parameters that each call has of its own: `#1` to `#30`.
+/// Number of parameters that are local to a call: `#1` to `#30`.
 pub(super) const LOCALS: usize = 30;
 
-/// Parameters that hold reference points and offsets, which the machine keeps.
+/// Parameters of reference points and offsets, which the machine maintains.
 const OFFSETS: std::ops::RangeInclusive<u32> = 5161..=5390;
 
-/// Parameters of the program and of the calls that it is in.
+/// Parameters of the program and of its active calls.
 #[derive(Debug)]
 pub(super) struct Parameters {
     globals: HashMap<u32, f64>,
     named: HashMap<String, f64>,
-    /// The last one is in force.
+    /// Scopes; the last one is current.
     scopes: Vec<Scope>,
 }
 
-/// What a call has of its own.
+/// Parameters local to a call.
 #[derive(Debug, Default)]
 struct Scope {
     numbers: [f64; LOCALS],
@@ -54,7 +54,7 @@ impl Parameters {
         self.scopes.pop();
     }
 
-    /// The value of a parameter; a number never set is 0.
+    /// Returns the value of a parameter; a number that was never set is 0.
     pub(super) fn get(&self, name: &Name) -> Result<Option<f64>, Problem> {
         let scope = self.scopes.last();
         match name {

@@ -6,11 +6,11 @@ use super::machine::{Machine, Words};
 use super::modal::{Motion, Plane};
 use super::problem::Problem;
 
-/// Radius and angle, where they are given.
+/// Radius and angle, if given.
 pub(super) type Polar = [Option<f64>; 2];
 
 impl Machine<'_> {
-    /// Makes Cartesian words of those that are polar; a cycle keeps its `@` and `^`.
+    /// Converts polar words to Cartesian ones; a cycle keeps its `@` and `^`.
     pub(super) fn cartesian(
         &mut self,
         block: &mut Block,
@@ -93,8 +93,9 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// The place that `@` and `^` lead to from another one, as LinuxCNC has it: under G91 they are
-    /// steps, and what is not given stays. All in millimetres from the program's zero.
+    /// Returns the point that `@` and `^` give from another one, as in LinuxCNC: under G91 they
+    /// are increments, and a missing one is unchanged. All points are in millimetres from the
+    /// program's zero.
     pub(super) fn polar_to(&self, [x, y]: [f64; 2], polar: Polar) -> Result<[f64; 2], Problem> {
         let [radius, angle] = polar;
         let whole = radius.is_some() && angle.is_some() && !self.modal.relative;

@@ -1,17 +1,17 @@
-//! What is wrong with a line.
+//! Problems in a line.
 
 use std::ops::Range;
 
-/// What is wrong with a line, before it is a [`Fault`](crate::input::Fault).
+/// Problem in a line, before it becomes a [`Fault`](crate::input::Fault).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Problem {
     pub(super) field: String,
     pub(super) problem: String,
     pub(super) allowed: String,
-    /// Where in the cleaned line, if known.
+    /// Position in the cleaned line, if known.
     pub(super) at: Option<Range<usize>>,
-    /// It may be the doing of another fault before it, which has left a position, a mode or a
-    /// parameter other than was meant.
+    /// True if it may be a consequence of an earlier fault, which has left a wrong position, mode
+    /// or parameter.
     pub(super) follows: bool,
 }
 
@@ -30,7 +30,7 @@ impl Problem {
         }
     }
 
-    /// The same, of a part of the cleaned line, unless a smaller one is known.
+    /// Sets the part of the cleaned line, unless a smaller one is known.
     pub(super) fn at(self, at: Range<usize>) -> Self {
         Self {
             at: Some(self.at.unwrap_or(at)),
@@ -38,7 +38,7 @@ impl Problem {
         }
     }
 
-    /// The same, which may be the doing of another fault.
+    /// Marks the problem as a possible consequence of an earlier fault.
     pub(super) fn following(self) -> Self {
         Self {
             follows: true,

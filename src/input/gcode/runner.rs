@@ -1,4 +1,4 @@
-//! A program line by line, with its calls, branches and loops.
+//! Execution of a program line by line, with its calls, branches and loops.
 
 use std::rc::Rc;
 
@@ -16,18 +16,18 @@ use super::text::{clean, line_at};
 use crate::input::brief;
 use crate::input::{Drawing, Fault, Faults};
 
-/// A program in its text.
+/// Program being executed.
 pub(super) struct Runner<'a> {
-    /// What is being run: the program, or a file that it calls.
+    /// Current text: the program, or a file that it calls.
     pub(super) source: Rc<Source<'a>>,
     pub(super) library: Library<'a>,
     options: &'a Options,
     pub(super) machine: Machine<'a>,
     pub(super) parameters: Parameters,
-    /// Where the next line begins, and its number.
+    /// Offset and number of the next line.
     pub(super) at: (usize, usize),
     pub(super) frames: Vec<Frame<'a>>,
-    /// REPEATs that are being run, and how often yet.
+    /// Active REPEATs with their number of repetitions so far.
     pub(super) loops: Vec<(usize, u64)>,
     executed: u64,
     started: bool,
@@ -35,7 +35,7 @@ pub(super) struct Runner<'a> {
     faults: Faults,
 }
 
-/// What expressions see.
+/// Values that expressions can read.
 pub(super) struct Known<'k, 'a> {
     parameters: &'k Parameters,
     machine: &'k Machine<'a>,
@@ -78,7 +78,7 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Runs the program to its end.
+    /// Executes the program to its end.
     pub(super) fn run(mut self) -> Result<Drawing, Fault> {
         let (mut cleaned, mut block) = (Vec::new(), Block::default());
         while !self.ended {
@@ -136,7 +136,7 @@ impl<'a> Runner<'a> {
                 self.words(rest.rest(), line, block)?;
             }
             Some((label, keyword, rest)) => {
-                // Where it would go on is not known after a fault.
+                // After a fault the continuation is unknown.
                 let done = self.flow(start, line, &label, keyword, rest);
                 self.ended |= done.is_err();
                 return done;
@@ -146,7 +146,7 @@ impl<'a> Runner<'a> {
         self.machine.push(line, self.line_of_program(line))
     }
 
-    /// Counts lines that are run.
+    /// Counts executed lines.
     fn count(&mut self, lines: u64) -> Result<(), Problem> {
         self.executed = self.executed.saturating_add(lines);
         let most = self.options.most_lines;
@@ -159,7 +159,7 @@ impl<'a> Runner<'a> {
         Err(Problem::new("program", problem, allowed))
     }
 
-    /// Lines that hold no words: settings of controls, and texts for a display.
+    /// Handles lines without words: settings of controls, and texts for a display.
     fn outside(&mut self, bytes: &[u8], line: usize) -> Result<bool, Problem> {
         let text = bytes.trim_ascii_start();
         let display = |code: &[u8]| {
@@ -189,7 +189,8 @@ impl<'a> Runner<'a> {
         Ok(true)
     }
 
-    /// A macro of a printer's control, as `EXCLUDE_OBJECT_START NAME=a`: no word has a `_` in it.
+    /// Skips a macro of a printer's control, such as `EXCLUDE_OBJECT_START NAME=a`: no word
+    /// contains a `_`.
     fn control_macro(&mut self, text: &[u8], line: usize) -> Result<bool, Problem> {
         let name = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
         let end = text.iter().position(|byte| !name(byte));
@@ -217,7 +218,7 @@ impl<'a> Runner<'a> {
         Err(Problem::new(brief(&name), problem, allowed))
     }
 
-    /// The first `%` opens the program, the next one closes it.
+    /// Handles `%`: the first opens the program, the next one closes it.
     fn delimiter(&mut self, cleaned: &[u8]) -> Result<bool, Problem> {
         if !cleaned.contains(&b'%') {
             return Ok(false);
@@ -244,7 +245,7 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Reads the words of a line and has the machine do them.
+    /// Parses the words of a line and executes them.
     fn words(&mut self, cleaned: &[u8], line: usize, block: &mut Block) -> Result<(), Problem> {
         block.read(cleaned, &self.known(line))?;
         for (name, value) in block.sets.drain(..) {
@@ -283,14 +284,14 @@ impl<'a> Runner<'a> {
         at.and_then(|at| self.source.index().places.get(at))
     }
 
-    /// Goes on after the line of an O-word.
+    /// Continues after the line of an O-word.
     pub(super) fn go_after(&mut self, at: Option<usize>) {
         if let Some(to) = self.place(at).map(|place| (place.next, place.line + 1)) {
             self.at = to;
         }
     }
 
-    /// Warns where there is text after the end.
+    /// Warns about text after the end.
     fn look_at_rest(&mut self) {
         let (mut at, mut line) = self.at;
         let source = Rc::clone(&self.source);
@@ -306,7 +307,7 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// A file that ends, or would end the program, inside a call.
+/// Returns the error of a file that ends, or would end the program, inside a call.
 fn unended() -> Problem {
     let problem = "ends inside a call";
     Problem::new(
@@ -316,7 +317,7 @@ fn unended() -> Problem {
     )
 }
 
-/// True if a line with `$` shows or sets what a control has; `$H`, `$J` and others move.
+/// True if a line with `$` shows or sets a parameter of a control; `$H`, `$J` and others move.
 fn is_setting(text: &[u8]) -> bool {
     let name = text.get(1..).unwrap_or_default().trim_ascii();
     let name = name.split(|byte| *byte == b'=').next().unwrap_or_default();

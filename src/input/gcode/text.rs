@@ -1,11 +1,10 @@
-//! The text by lines, and a line without its blanks and comments.
+//! Lines of a text, and removal of blanks and comments.
 
 use super::problem::Problem;
 
 const ALLOWED: &str = "ASCII letters, digits and signs, in lines that end in LF, CR or CR LF";
 
-/// The text without what editors and old systems put around it: a byte order mark, and Ctrl-Z and
-/// NUL at its end.
+/// Strips a byte order mark, and Ctrl-Z and NUL at the end.
 pub(super) fn trimmed(text: &[u8]) -> &[u8] {
     let mut text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
     while let [rest @ .., 0 | 0x1a] = text {
@@ -14,7 +13,7 @@ pub(super) fn trimmed(text: &[u8]) -> &[u8] {
     text
 }
 
-/// The line that begins at an offset, without its end, and where the next one begins. It ends in
+/// Returns the line at an offset, without its end, and the offset of the next one. A line ends in
 /// LF, CR, CR LF or CR CR LF.
 pub(super) fn line_at(text: &[u8], offset: usize) -> Option<(&[u8], usize)> {
     let rest = text.get(offset..).filter(|rest| !rest.is_empty())?;
@@ -30,26 +29,26 @@ pub(super) fn line_at(text: &[u8], offset: usize) -> Option<(&[u8], usize)> {
     Some((line, offset + length + end))
 }
 
-/// Copies a line in capitals without blanks, which stand anywhere in RS274. A comment leaves one
-/// blank, which keeps apart what is on either side of it, as do blanks between a digit and an E,
-/// which is then no exponent. A NUL is a blank.
+/// Copies a line in upper case without blanks, which may be anywhere in RS274. A comment leaves
+/// one blank, which separates its neighbours; so do blanks between a digit and an E, which is then
+/// no exponent. A NUL is a blank.
 ///
 /// # Errors
 ///
-/// A character that is no printable ASCII, or a comment that is not closed.
+/// Returns an error for a character that is not printable ASCII, or a comment that is not closed.
 pub(super) fn clean(line: &[u8], into: &mut Vec<u8>) -> Result<(), Problem> {
     into.clear();
     each(line, |_, byte| into.push(byte))
 }
 
-/// Hands over what [`clean`] keeps of a line, with its places in the line.
+/// Passes on the characters that [`clean`] keeps, with their positions in the line.
 ///
 /// # Errors
 ///
-/// As [`clean`].
+/// Returns the errors of [`clean`].
 pub(super) fn each(line: &[u8], mut keep: impl FnMut(usize, u8)) -> Result<(), Problem> {
     let mut depth = 0_usize;
-    // Blanks are before it; the last character that was kept; it is in the name of a parameter.
+    // Blanks precede; last character kept; inside the name of a parameter.
     let (mut blank, mut last, mut named) = (false, b' ', false);
     for (at, &byte) in line.iter().enumerate() {
         match (byte, depth) {

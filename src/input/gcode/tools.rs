@@ -1,4 +1,4 @@
-//! Lengths of tools.
+//! Tool lengths.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use super::machine::Machine;
 use super::problem::Problem;
 use crate::input::Point;
 
-/// Effect of a G word on the length of a tool.
+/// Effect of a G word on the tool length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Length {
     /// G49.
@@ -18,13 +18,13 @@ pub(super) enum Length {
     Add,
 }
 
-/// The lengths that the program has set, by the number of the tool, in millimetres; none where it
-/// has set one that is not known.
+/// Lengths set by the program, by tool number, in millimetres; `None` for a length that is
+/// unknown.
 #[derive(Debug, Default)]
 pub(super) struct Tools(HashMap<i64, Option<Point>>);
 
 impl Machine<'_> {
-    /// Puts the length of a tool in force.
+    /// Applies a tool length.
     pub(super) fn tool_length(
         &mut self,
         line: usize,
@@ -73,8 +73,8 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// G10 for a tool: L1 sets lengths by X, Y and Z, L10 those with which the tool is at X, Y and Z;
-    /// what the others set is not known.
+    /// Executes G10 for a tool: L1 sets lengths by X, Y and Z, L10 lengths for which the tool is
+    /// at X, Y and Z; other forms make the length unknown.
     pub(super) fn set_tool(
         &mut self,
         line: usize,

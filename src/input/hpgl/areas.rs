@@ -1,4 +1,4 @@
-//! Areas, their edges and fillings: EA, ER, EW, RA, RR, WG, PM, EP, FP, FT, AC, PT, PW, WU.
+//! Areas, their edges and fills: EA, ER, EW, RA, RR, WG, PM, EP, FP, FT, AC, PT, PW, WU.
 
 use super::curve::Arc;
 use super::fill::{self, Fill, Hatching, Inside, Lines};
@@ -9,11 +9,11 @@ use super::scale::UNITS_PER_MM;
 use super::{PenWidth, Plotter};
 use crate::input::Fault;
 
-/// The narrowest pen: a filling has its lines so far apart at least.
+/// Narrowest pen: least distance of a fill's lines, in plotter units.
 const NARROWEST_UNITS: f64 = 0.05 * UNITS_PER_MM;
 
 impl Plotter<'_> {
-    /// From the pen to the opposite corner. The pen stays where it is.
+    /// Draws a rectangle from the pen to the opposite corner. The pen stays where it is.
     pub(super) fn rectangle(
         &mut self,
         by: By<'_>,
@@ -31,7 +31,7 @@ impl Plotter<'_> {
         self.edge_or_fill(by, filled)
     }
 
-    /// A sector about the pen, which stays where it is; a whole circle has no radii.
+    /// Draws a sector about the pen, which stays where it is; a full circle has no radii.
     pub(super) fn wedge(&mut self, by: By<'_>, filled: bool) -> Result<(), Fault> {
         let numbers = self.parameters(&[3, 4])?;
         let &[radius, start_deg, sweep_deg, ..] = numbers.as_slice() else {
@@ -70,7 +70,7 @@ impl Plotter<'_> {
                 (self.at, self.down) = (at, down);
                 self.mark();
             }
-            // Ends what has not begun: an empty polygon, which is what it is.
+            // Ends a polygon that has not begun: an empty polygon.
             (1.0 | 2.0, None) => {}
             (0.0, Some(_)) => {
                 let problem = "polygon mode within polygon mode";
@@ -84,7 +84,7 @@ impl Plotter<'_> {
         Ok(())
     }
 
-    /// Draws the edges of what the polygon buffer holds; the pen comes back.
+    /// Draws the edges in the polygon buffer; the pen returns.
     pub(super) fn edge_polygon(&mut self, by: By<'_>) -> Result<(), Fault> {
         let paper = &mut self.paper;
         for part in self.polygon.parts() {
@@ -115,7 +115,7 @@ impl Plotter<'_> {
         self.fill(by, inside)
     }
 
-    /// Fills what the polygon buffer holds; the pen comes back.
+    /// Fills the polygon buffer; the pen returns.
     fn fill(&mut self, by: By<'_>, inside: Inside) -> Result<(), Fault> {
         let even = Lines::Even {
             most: self.pen_width.units.max(NARROWEST_UNITS),
@@ -197,7 +197,7 @@ impl Plotter<'_> {
         Ok(())
     }
 
-    /// The width of the pen in millimetres, for fillings (PT).
+    /// Sets the width of the pen in millimetres, for fills (PT).
     pub(super) fn pen_thickness(&mut self) -> Result<(), Fault> {
         let width = match *self.parameters(&[0, 1])? {
             [width] => width,
@@ -206,7 +206,7 @@ impl Plotter<'_> {
         self.set_width(width * UNITS_PER_MM)
     }
 
-    /// The width of the pen, in what WU says; what pen it is of does not matter here.
+    /// Sets the width of the pen, in the unit chosen by WU, whatever its number.
     pub(super) fn pen_width(&mut self) -> Result<(), Fault> {
         let relative = self.pen_width.relative;
         let width = self.parameters(&[0, 1, 2])?.first().copied();
@@ -234,7 +234,7 @@ impl Plotter<'_> {
         Ok(())
     }
 
-    /// An instruction that polygon mode does not take.
+    /// Handles an instruction that polygon mode does not accept.
     pub(super) fn out_of_place(&mut self, mnemonic: Mnemonic, line: usize) -> Result<(), Fault> {
         if !self.lenient {
             let allowed = "AA, AR, AT, BR, BZ, CI, PA, PD, PE, PR, PU or RT up to PM2";

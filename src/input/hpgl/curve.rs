@@ -1,23 +1,23 @@
-//! Curves as chords: arcs, circles and Bézier curves. Points are in whatever units are given.
+//! Approximation of arcs, circles and Bézier curves by chords. Points are in any unit.
 
-/// How a chord angle is given (CT).
+/// Meaning of a chord angle (CT).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Tolerance {
-    /// In degrees.
+    /// Angle in degrees.
     #[default]
     Angle,
-    /// As the greatest distance of a chord from its arc.
+    /// Greatest distance of a chord from its arc.
     Deviation,
 }
 
-/// The chord angle that is used where none is given, in degrees.
+/// Default chord angle in degrees.
 const DEFAULT_CHORD_DEG: f64 = 5.0;
 
-/// The least and the greatest chord angle, in degrees.
+/// Least and greatest chord angle in degrees.
 const CHORDS_DEG: [f64; 2] = [0.5, 180.0];
 
 impl Tolerance {
-    /// The chord angle in degrees for the parameter of an instruction.
+    /// Returns the chord angle in degrees for the parameter of an instruction.
     pub(super) fn chord_deg(self, given: Option<f64>, radius: f64) -> f64 {
         let angle = match (self, given) {
             (_, None) => DEFAULT_CHORD_DEG,
@@ -33,7 +33,7 @@ impl Tolerance {
     }
 }
 
-/// A part of a circle, anticlockwise for a positive angle.
+/// Part of a circle, anticlockwise for a positive angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Arc {
     pub(super) centre: [f64; 2],
@@ -42,7 +42,7 @@ pub(super) struct Arc {
 }
 
 impl Arc {
-    /// From a radius and the angle where it begins.
+    /// Creates an arc from a radius and its start angle.
     pub(super) fn around(centre: [f64; 2], radius: f64, start_deg: f64, sweep_deg: f64) -> Self {
         let [x, y] = centre;
         let [sin, cos] = sin_cos_deg(start_deg);
@@ -53,8 +53,8 @@ impl Arc {
         }
     }
 
-    /// Through three points; `None` where they are on a line. An end at the start is a full circle,
-    /// with the point between opposite.
+    /// Creates an arc through three points; `None` if they are on a line. An end equal to the
+    /// start gives a full circle, with the point between on the opposite side.
     pub(super) fn through(start: [f64; 2], between: [f64; 2], end: [f64; 2]) -> Option<Self> {
         let [bx, by] = [between[0] - start[0], between[1] - start[1]];
         let [cx, cy] = [end[0] - start[0], end[1] - start[1]];
@@ -76,7 +76,7 @@ impl Arc {
         Some(Arc {
             centre: [start[0] + ox, start[1] + oy],
             start,
-            // Anticlockwise where the point between is on the right of the line to the end.
+            // Anticlockwise if the point between is on the right of the line to the end.
             sweep_deg: if cross > 0.0 { turn } else { turn - 360.0 },
         })
     }
@@ -85,9 +85,9 @@ impl Arc {
         (self.start[0] - self.centre[0]).hypot(self.start[1] - self.centre[1])
     }
 
-    /// The ends of its chords, all equal and of the given angle at most.
+    /// Returns the ends of its chords, all of equal angle, at most the given one.
     pub(super) fn chords(self, chord_deg: f64) -> impl Iterator<Item = [f64; 2]> {
-        // So that rounding adds no chord.
+        // Prevents rounding from adding a chord.
         let count = (self.sweep_deg.abs() / chord_deg - 1e-9).ceil();
         let [x, y] = self.centre;
         let [dx, dy] = [self.start[0] - x, self.start[1] - y];
@@ -105,7 +105,7 @@ impl Arc {
     }
 }
 
-/// Sine and cosine of an angle in degrees, exact at right angles.
+/// Returns sine and cosine of an angle in degrees, exact at right angles.
 pub(super) fn sin_cos_deg(angle: f64) -> [f64; 2] {
     match angle.rem_euclid(360.0) {
         0.0 => [0.0, 1.0],
@@ -116,16 +116,16 @@ pub(super) fn sin_cos_deg(angle: f64) -> [f64; 2] {
     }
 }
 
-/// How far a chord of a Bézier curve may be off it, in plotter units.
+/// Greatest deviation of a chord from a Bézier curve, in plotter units.
 const BEZIER_UNITS: f64 = 0.25;
 
-/// How many chords a Bézier curve needs, from its control points in plotter units.
+/// Returns the number of chords of a Bézier curve, from its control points in plotter units.
 pub(super) fn bezier_chords(points: [[f64; 2]; 4]) -> u32 {
     let bend = |first: usize| {
         let [a, b, c] = [points[first], points[first + 1], points[first + 2]];
         (a[0] - 2.0 * b[0] + c[0]).hypot(a[1] - 2.0 * b[1] + c[1])
     };
-    // A chord over the part h is off by h² / 8 of the second derivative at most.
+    // A chord over the part h deviates by at most h² / 8 of the second derivative.
     let second_derivative = 6.0 * bend(0).max(bend(1));
     (second_derivative / (8.0 * BEZIER_UNITS))
         .sqrt()
@@ -133,7 +133,7 @@ pub(super) fn bezier_chords(points: [[f64; 2]; 4]) -> u32 {
         .clamp(1.0, 100_000.0) as u32
 }
 
-/// A point of a Bézier curve.
+/// Returns a point of a Bézier curve.
 pub(super) fn bezier(points: [[f64; 2]; 4], part: f64) -> [f64; 2] {
     let rest = 1.0 - part;
     let weights = [
@@ -171,7 +171,7 @@ mod tests {
             assert_eq!(angle.chord_deg(given, 100.0), chord);
         }
         let deviation = Tolerance::Deviation;
-        // r (1 - cos 30°) off: a chord over 60°.
+        // Deviation r (1 - cos 30°): a chord over 60°.
         let off = 100.0 * (1.0 - 0.75f64.sqrt());
         assert!((deviation.chord_deg(Some(off), 100.0) - 60.0).abs() < 1e-9);
         assert_eq!(deviation.chord_deg(Some(500.0), 100.0), 180.0);

@@ -41,7 +41,7 @@ impl Plotter<'_> {
         }
     }
 
-    /// A polyline encoded. Its points are relative unless marked; PA and PR stay as they are.
+    /// Draws an encoded polyline. Its points are relative unless marked; PA and PR stay unchanged.
     pub(super) fn draw_encoded(&mut self, by: By<'_>) -> Result<(), Fault> {
         let mut base = Base::default();
         let mut fraction_bits = 0;
@@ -69,7 +69,7 @@ impl Plotter<'_> {
                 _ => {
                     let x = match base.number(&mut self.lexer, Some(byte)) {
                         Ok(x) => x,
-                        // Some programs leave out the semicolon before the next instruction.
+                        // Some programs omit the semicolon before the next instruction.
                         Err(_) if self.lexer.back_to_instruction(place) => {
                             let text = || "PE: ends without a semicolon".to_owned();
                             self.note("PE;", line, text);
@@ -134,7 +134,7 @@ impl Plotter<'_> {
                 self.go(by, between)?;
             }
         }
-        // Without the rounding of the arc.
+        // Removes the rounding of the arc.
         if self.at != end {
             self.go(by, end)?;
         }
@@ -152,8 +152,8 @@ impl Plotter<'_> {
         Ok(())
     }
 
-    /// A circle about the pen, which comes back to the centre as it was. In polygon mode it is a
-    /// part of its own.
+    /// Draws a circle about the pen, which returns to the centre in its earlier state. In polygon
+    /// mode it is a separate part.
     pub(super) fn circle(&mut self, by: By<'_>) -> Result<(), Fault> {
         let numbers = self.parameters(&[1, 2])?;
         let Some(radius) = numbers.first().copied() else {

@@ -1,9 +1,9 @@
-//! Numbers of encoded polylines (PE): little digits of base 64 or 32, the last of them marked.
+//! Numbers of encoded polylines (PE): little-endian digits of base 64 or 32, the last one marked.
 
 use super::lexer::Lexer;
 use crate::input::Fault;
 
-/// The base of the digits.
+/// Base of the digits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Base {
     #[default]
@@ -11,11 +11,11 @@ pub(super) enum Base {
     B32,
 }
 
-/// The most bits of a number: more than any coordinate in range has, with its fraction.
+/// Greatest number of bits of a number: more than any coordinate in range has, with its fraction.
 const MOST_BITS: u32 = 60;
 
 impl Base {
-    /// What a byte stands for: a digit, and whether it is the last of its number.
+    /// Decodes a byte: a digit, and true if it is the last of its number.
     fn digit(self, byte: u8) -> Option<(i64, bool)> {
         match (self, byte) {
             (Base::B64, 63..=126) => Some((byte - 63, false)),
@@ -37,11 +37,12 @@ impl Base {
         }
     }
 
-    /// Reads a number that begins with the byte `first`; without it with the next.
+    /// Reads a number that begins with the byte `first`, or else with the next byte.
     ///
     /// # Errors
     ///
-    /// A byte that is no digit, an end before the last digit, more than 60 bits.
+    /// Returns an error for a byte that is not a digit, an end before the last digit, or more than
+    /// 60 bits.
     pub(super) fn number(self, lexer: &mut Lexer<'_>, first: Option<u8>) -> Result<i64, Fault> {
         let allowed = "encoded numbers, the last digit of each marked as such";
         let mut byte = first;
@@ -99,7 +100,7 @@ mod tests {
 
     #[test]
     fn numbers_out_of_the_manual() {
-        // 82.83 with 7 bits of fraction.
+        // 82.83 with 7 fraction bits.
         assert_eq!(decode(Base::B64, &[83, 74, 196]), Ok(10_602));
         assert_eq!(encode(Base::B64, 0), [191]);
         assert_eq!(decode(Base::B64, &[191]), Ok(0));
@@ -127,7 +128,7 @@ mod tests {
                 for value in [value, small] {
                     let text = encode(base, value);
                     prop_assert_eq!(decode(base, &text), Ok(value));
-                    // White space and control characters may stand anywhere.
+                    // White space and control characters may be anywhere.
                     let spread: Vec<u8> = text.iter().flat_map(|&byte| [b'\n', byte]).collect();
                     prop_assert_eq!(decode(base, &spread), Ok(value));
                     if base == Base::B32 {

@@ -1,47 +1,47 @@
-//! Filling areas with parallel lines (FT, FP).
+//! Filling of areas with parallel lines (FT, FP).
 
 use super::curve::sin_cos_deg;
 
-/// What an area is filled with (FT).
+/// Fill of an area (FT).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) enum Fill {
-    /// Lines as far apart as the pen is wide, drawn to and fro.
+    /// Lines at a distance of the pen's width, in alternating directions.
     #[default]
     Solid,
-    /// The same, all drawn in one direction.
+    /// Lines at a distance of the pen's width, all in one direction.
     OneWay,
     /// Parallel lines.
     Hatched(Hatching),
-    /// Parallel lines and others across them.
+    /// Parallel lines, and others across them.
     CrossHatched(Hatching),
-    /// Shading and patterns, which no pen draws: the type's number.
+    /// Shading and patterns, which a pen cannot draw: number of the type.
     Pattern(u32),
 }
 
 /// Parallel lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Hatching {
-    /// In user units along X; `None` is 1 % of the distance of P1 and P2.
+    /// Distance in user units along X; `None` is 1 % of the distance of P1 and P2.
     pub(super) spacing: Option<f64>,
-    /// Anticlockwise from X, in degrees.
+    /// Angle anticlockwise from X, in degrees.
     pub(super) angle_deg: f64,
 }
 
-/// Which parts of polygons that cross themselves or others are inside (FP).
+/// Definition of the inside of polygons that cross themselves or others (FP).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Inside {
-    /// Where a way out crosses an odd number of edges.
+    /// Points from which a way out crosses an odd number of edges.
     EvenOdd,
-    /// Where the edges go around.
+    /// Points around which the edges wind.
     Winding,
 }
 
-/// Where the lines of a filling are.
+/// Positions of a fill's lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Lines {
-    /// Through the anchor and the multiples of a distance from it.
+    /// Through the anchor, and at multiples of a distance from it.
     Anchored { anchor: [f64; 2], spacing: f64 },
-    /// Evenly over the area, half a distance from its ends, and at most so far apart.
+    /// Evenly spaced over the area, half a distance from its ends, at most `most` apart.
     Even { most: f64 },
 }
 
@@ -50,20 +50,20 @@ type Line = [[f64; 2]; 2];
 struct Edge {
     low: [f64; 2],
     high: [f64; 2],
-    /// 1 upwards, -1 downwards.
+    /// 1 upwards, −1 downwards.
     way: i32,
 }
 
 impl Edge {
-    /// Where it is at a height between its ends.
+    /// Returns the position of the edge at a height between its ends.
     fn at(&self, height: f64) -> f64 {
         let ([x1, y1], [x2, y2]) = (self.low, self.high);
         x1 + (height - y1) * (x2 - x1) / (y2 - y1)
     }
 }
 
-/// The lines that fill closed polygons, each polygon given by its corners; one after the other, and
-/// every second one backwards if `to_and_fro`. `None` where they are more than `most`.
+/// Returns the lines that fill closed polygons, each given by its corners, in order; with
+/// `to_and_fro` every second one is reversed. Returns `None` if there are more than `most`.
 pub(super) fn lines(
     polygons: &[Vec<[f64; 2]>],
     lines: Lines,
@@ -72,7 +72,7 @@ pub(super) fn lines(
     to_and_fro: bool,
     most: usize,
 ) -> Option<Vec<Line>> {
-    // Turned so that the lines are level.
+    // Rotated so that the lines are level.
     let [sin, cos] = sin_cos_deg(angle_deg);
     let level = |[x, y]: [f64; 2]| [x * cos + y * sin, y * cos - x * sin];
     let back = |[x, y]: [f64; 2]| [x * cos - y * sin, y * cos + x * sin];
@@ -110,7 +110,7 @@ pub(super) fn lines(
             crossed.push(edge);
         }
         crossed.retain(|edge| edge.high[1] > height);
-        // Work is bounded, too, where many edges give few lines.
+        // Bounds the work also if many edges give few lines.
         left = left.checked_sub(crossed.len())?;
         crossings.clear();
         crossings.extend(crossed.iter().map(|edge| (edge.at(height), edge.way)));
@@ -141,7 +141,7 @@ pub(super) fn lines(
     Some(filled)
 }
 
-/// The edges that are not level.
+/// Returns the edges that are not level.
 fn edges(polygons: &[Vec<[f64; 2]>], level: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Edge> {
     let mut edges = Vec::new();
     for polygon in polygons {
@@ -196,7 +196,7 @@ mod tests {
         let filled = fill(&[square(0.0, 0.0, 3.0)], even, 0.0, Inside::EvenOdd);
         let heights: Vec<f64> = filled.iter().map(|line| line[0][1]).collect();
         assert_eq!(heights, [0.75, 2.25]);
-        // Narrower than the pen: one line all the same.
+        // Narrower than the pen: still one line.
         let filled = fill(&[square(0.0, 0.0, 1.0)], even, 0.0, Inside::EvenOdd);
         assert_eq!(filled, [[[0.0, 0.5], [1.0, 0.5]]]);
         let polygons = [square(1.0, 1.0, 4.0)];
@@ -250,7 +250,7 @@ mod tests {
     }
 
     proptest! {
-        /// Lines close enough together cover the area of a triangle, and no more.
+        /// Lines that are close enough cover the area of a triangle, and no more.
         #[test]
         fn the_lines_cover_the_area(
             corners in proptest::array::uniform6(-100.0..100.0f64),

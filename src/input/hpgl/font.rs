@@ -1,27 +1,28 @@
-//! The letters of labels: Hershey's single-stroke Roman ones.
+//! Letters of labels: Hershey's single-stroke Roman font.
 
 use std::sync::OnceLock;
 
 use vector_text_core::Renderer;
 use vector_text_hershey::{HersheyFont, HersheyRenderer};
 
-/// The strokes of a character, in widths and heights of a capital letter, from the left end of the
+/// Strokes of a character, in widths and heights of a capital letter, from the left end of the
 /// base line.
 pub(super) type Glyph = Vec<Vec<[f64; 2]>>;
 
-/// How wide and how high a capital letter of the font is, in its own units.
+/// Width and height of a capital letter of the font, in font units.
 const CAPITAL: [f64; 2] = [16.0, 21.0];
 
-/// The base line in the font's own units, which count downwards.
+/// Base line in font units, which count downwards.
 const BASE_LINE: f64 = 9.0;
 
-/// The widest that a character may be: it has a cell of one and a half widths.
+/// Greatest width of a character: it has a cell of one and a half widths.
 const WIDEST: f64 = 1.3;
 
-/// The first and the last character that the font has, apart from the space.
+/// First and last character of the font, besides the space.
 const CHARACTERS: std::ops::RangeInclusive<u8> = b'!'..=b'~';
 
-/// The strokes of a character in ASCII; empty for a space, `None` for what the font has not.
+/// Returns the strokes of an ASCII character; empty for a space, `None` for a character that the
+/// font does not have.
 pub(super) fn glyph(character: u8) -> Option<&'static Glyph> {
     static GLYPHS: OnceLock<Vec<Glyph>> = OnceLock::new();
     static SPACE: Glyph = Vec::new();
@@ -34,10 +35,10 @@ pub(super) fn glyph(character: u8) -> Option<&'static Glyph> {
         .get(place)
 }
 
-/// Every character in the middle of a cell, as those of a plotter are.
+/// Returns the strokes of a character, centred in its cell as on a plotter.
 fn draw(character: u8) -> Glyph {
     if character == b'_' {
-        // The font has none.
+        // The font has no underscore.
         return vec![vec![[0.0, -0.2], [1.0, -0.2]]];
     }
     let text = char::from(character).to_string();
@@ -85,7 +86,7 @@ mod tests {
         let most = |axis: usize| points.iter().map(|p| p[axis]).fold(-9.0, f64::max);
         assert_eq!((least(1), most(1)), (0.0, 1.0));
         assert!((least(0) + most(0) - 1.0).abs() < 1e-9, "in the middle");
-        // H is two uprights and a bar.
+        // H has two uprights and a bar.
         assert_eq!(glyph(b'H').unwrap().len(), 3);
     }
 }

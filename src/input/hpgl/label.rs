@@ -32,14 +32,14 @@ impl<'a> Plotter<'a> {
         self.text.frame(&self.corners)
     }
 
-    /// Writes a label. The pen ends where the next one goes on; with an origin that is not at the
-    /// label's left end, where the label began.
+    /// Writes a label. The pen ends where the next label continues; with an origin that is not at
+    /// the label's left end, it ends where the label began.
     fn write(&mut self, by: By<'_>, text: &[u8]) -> Result<(), Fault> {
         let frame = self.frame();
         let path = self.text.path;
         let start = self.here();
         let mut at = start;
-        // Every line by itself: the origin is that of each.
+        // Each line separately: the origin applies to each.
         for (number, line) in text.split(|&byte| byte == CARRIAGE_RETURN).enumerate() {
             if number > 0 {
                 at = self.text.carriage;
@@ -49,7 +49,7 @@ impl<'a> Plotter<'a> {
             for &byte in line {
                 match byte {
                     BACKSPACE => at = add(at, frame.step(path), -1.0),
-                    // Half a step back, as an HP 7475A.
+                    // Half a step back, as on an HP 7475A.
                     TAB => at = add(at, frame.step(path), -0.5),
                     LINE_FEED | VERTICAL_TAB => {
                         let lines = if byte == LINE_FEED { 1.0 } else { -1.0 };
@@ -69,13 +69,13 @@ impl<'a> Plotter<'a> {
         self.put(by, to)
     }
 
-    /// Brings the raised pen to a point in plotter units.
+    /// Moves the raised pen to a point in plotter units.
     fn put(&mut self, by: By<'_>, to: [f64; 2]) -> Result<(), Fault> {
         self.at = self.scale.to_user(to);
         self.paper.travel(by, to)
     }
 
-    /// Whether labels go on where the last one ended, by the origin.
+    /// True if labels continue where the last one ended, depending on the origin.
     fn ends_at_its_end(&self) -> bool {
         let column = (self.text.origin % 10).saturating_sub(1) / 3;
         match self.text.path {
@@ -103,7 +103,7 @@ impl<'a> Plotter<'a> {
         Ok(())
     }
 
-    /// How far a line of a label is moved for its origin.
+    /// Returns the shift of a label's line for its origin.
     fn origin_shift(&self, frame: &Frame, line: &[u8]) -> [f64; 2] {
         let origin = self.text.origin;
         let place = (origin % 10).saturating_sub(1);
@@ -115,7 +115,7 @@ impl<'a> Plotter<'a> {
             .filter(|&&byte| byte >= b' ' && byte != 0x7f)
             .count() as f64;
         let steps = (letters - 1.0).max(0.0);
-        // The whole of the line from its lower left, in letters.
+        // Extent of the line from its lower left, in letters.
         let end = add([0.0; 2], frame.step(self.text.path), steps);
         let across = f64::from(place / 3) / 2.0;
         let up = f64::from(place % 3) / 2.0;
@@ -127,7 +127,7 @@ impl<'a> Plotter<'a> {
         );
         shift = add(shift, frame.upright, -up);
         if origin > 10 {
-            // Half a letter away from the point, on whatever side the label is.
+            // Half a letter away from the point, on any side.
             shift = add(shift, frame.width, 0.5 - across);
             shift = add(shift, frame.upright, 0.5 - up);
         }
@@ -237,7 +237,7 @@ impl<'a> Plotter<'a> {
         Ok(())
     }
 
-    /// Draws the symbol, if there is one, with its middle at the pen, and brings the pen back.
+    /// Draws the symbol, if there is one, centred at the pen, and returns the pen.
     pub(super) fn draw_symbol(&mut self, by: By<'_>) -> Result<(), Fault> {
         let Some(symbol) = self.text.symbol else {
             return Ok(());
@@ -252,7 +252,7 @@ impl<'a> Plotter<'a> {
         self.paper.travel(by, here)
     }
 
-    /// A character of its own, drawn on a grid of 4 by 8 to a letter. The pen goes on to the next
+    /// Draws a user-defined character on a grid of 4 by 8 per letter. The pen advances to the next
     /// cell.
     pub(super) fn user_character(&mut self, by: By<'_>) -> Result<(), Fault> {
         const PEN: f64 = 99.0;
@@ -287,7 +287,7 @@ impl<'a> Plotter<'a> {
         Ok(())
     }
 
-    /// A tick across an axis: upright on X, level on Y. The pen comes back.
+    /// Draws a tick across an axis: vertical on X, horizontal on Y. The pen returns.
     pub(super) fn tick(&mut self, by: By<'_>, of_y: bool) -> Result<(), Fault> {
         self.parameters(&[0])?;
         let [across, up] = self.corners.span();

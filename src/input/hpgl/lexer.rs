@@ -1,4 +1,4 @@
-//! HPGL text to instructions and numbers, read as they are asked for.
+//! Lexer: converts HPGL text to instructions and numbers on demand.
 
 use std::fmt;
 use std::ops::Range;
@@ -10,10 +10,10 @@ mod escape;
 const ESC: u8 = 0x1b;
 const ETX: u8 = 0x03;
 
-/// The largest number in the text, either side of zero: that of HPGL/2.
+/// Greatest absolute value of a number in the text: that of HPGL/2.
 const LARGEST: f64 = 1_073_741_824.0;
 
-/// The two letters of an instruction, in upper case.
+/// Two letters of an instruction, in upper case.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) struct Mnemonic(pub(super) [u8; 2]);
 
@@ -35,23 +35,23 @@ impl fmt::Debug for Mnemonic {
     }
 }
 
-/// What stands where an instruction may stand.
+/// Item of the text at the position of an instruction.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Item {
-    /// An instruction; its parameters come next.
+    /// Instruction; its parameters come next.
     Instruction(Mnemonic),
-    /// One of a maker's own, with an exclamation mark before it; its parameters come next.
+    /// Maker's own instruction, after an exclamation mark; its parameters come next.
     Maker(Mnemonic),
-    /// An escape sequence, already skipped; told apart by the character after ESC.
+    /// Escape sequence, already skipped; identified by the character after ESC.
     Escape(char),
-    /// A line of printer job language, already skipped.
+    /// Line of printer job language, already skipped.
     Job,
-    /// Text that is no instruction, already skipped, up to where one may begin. What it begins
-    /// with.
+    /// Text that is not an instruction, already skipped up to the next possible one; its first
+    /// character.
     Noise(char),
 }
 
-/// A place in the text: the bytes before it, and its line.
+/// Position in the text: number of bytes before it, and its line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place(usize, usize);
 
@@ -61,22 +61,23 @@ pub(super) struct Lexer<'a> {
     lenient: bool,
     at: usize,
     line: usize,
-    /// The line of the instruction being read.
+    /// Line of the current instruction.
     start: usize,
-    /// Where its name stands.
+    /// Position of its name.
     name: Range<usize>,
-    /// Where the number read last stands, and its line.
+    /// Position of the last number, and its line.
     last: (Range<usize>, usize),
-    /// What a fault names.
+    /// Name of the current instruction in faults.
     field: String,
-    /// The text is a printer's, not a plotter's, up to the next escape sequence.
+    /// True while the text belongs to a printer, up to the next escape sequence.
     printer: bool,
-    /// Ends a label.
+    /// Terminator of a label.
     terminator: u8,
 }
 
 impl<'a> Lexer<'a> {
-    /// Where `lenient`, what is no instruction is an [`Item::Noise`] and not a fault.
+    /// Creates a lexer; with `lenient`, invalid text becomes an [`Item::Noise`] instead of a
+    /// fault.
     pub(super) fn new(file: &'a str, text: &'a [u8], lenient: bool) -> Self {
         Self {
             file,
@@ -93,18 +94,18 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// The line reached, from 1. CR, LF, CR LF and CR CR LF each end a line.
+    /// Returns the current line, from 1. CR, LF, CR LF and CR CR LF each end a line.
     pub(super) fn line(&self) -> usize {
         self.line
     }
 
-    /// The line the instruction being read begins in.
+    /// Returns the line in which the current instruction begins.
     pub(super) fn start(&self) -> usize {
         self.start
     }
 
-    /// The next instruction; `None` at the end of the text. Separators between instructions are
-    /// skipped.
+    /// Returns the next instruction; `None` at the end of the text. Skips separators between
+    /// instructions.
     pub(super) fn item(&mut self) -> Result<Option<Item>, Fault> {
         if self.printer {
             while self.take_if(|byte| byte != ESC).is_some() {}
@@ -148,7 +149,7 @@ impl<'a> Lexer<'a> {
         }))
     }
 
-    /// What is no instruction.
+    /// Handles text that is not an instruction.
     fn noise(&mut self, byte: u8) -> Result<Item, Fault> {
         let shown = char::from(byte);
         if self.lenient {
@@ -161,9 +162,9 @@ impl<'a> Lexer<'a> {
         Err(self.fault_here("no instruction starts with it", allowed))
     }
 
-    /// The next parameter of the instruction; `None` at its end. Commas, white space and signs
-    /// separate; a comma may stand before the first and after the last. The end is a semicolon, the
-    /// next instruction or the end of the text.
+    /// Returns the next parameter of the instruction; `None` at its end. Commas, white space and
+    /// signs separate parameters; a comma may come before the first and after the last. The
+    /// instruction ends at a semicolon, the next instruction or the end of the text.
     pub(super) fn number(&mut self) -> Result<Option<f64>, Fault> {
         self.skip_space();
         if self.take_if(|byte| byte == b',').is_some() {
@@ -212,7 +213,7 @@ impl<'a> Lexer<'a> {
         Ok(value)
     }
 
-    /// Skips the parameters of an instruction, quoted text included.
+    /// Skips the parameters of an instruction, including quoted text.
     pub(super) fn skip_parameters(&mut self) -> Result<(), Fault> {
         loop {
             match self.peek() {
@@ -231,12 +232,12 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// The text of a label, up to its terminator, which is not part of it.
+    /// Returns the text of a label, without its terminator.
     pub(super) fn label(&mut self) -> Result<&'a [u8], Fault> {
         self.through(self.terminator, "no label terminator after it")
     }
 
-    /// Skips a quoted text and its end, or else any bytes up to a semicolon.
+    /// Skips a quoted text and its end, or else all bytes up to a semicolon.
     pub(super) fn skip_text(&mut self) -> Result<(), Fault> {
         self.skip_space();
         match self.peek() {
@@ -245,14 +246,14 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// The next byte of an encoded polyline and its place; `None` at the semicolon that ends it, which is taken.
-    /// White space and control characters are skipped.
+    /// Returns the next byte of an encoded polyline with its position; `None` at the semicolon
+    /// that ends it, which is consumed. Skips white space and control characters.
     ///
     /// # Errors
     ///
-    /// Without a semicolon before the end of the text.
+    /// Returns an error if the text ends before a semicolon.
     pub(super) fn encoded(&mut self) -> Result<Option<(u8, Place)>, Fault> {
-        // Characters 128 to 160 and 255 are skipped as those below are.
+        // Characters 128 to 160 and 255 are skipped like those below 128.
         let skipped = |byte: u8| byte & 0x7f <= b' ' || byte & 0x7f == 0x7f;
         while self.take_if(skipped).is_some() {}
         let missing = "no semicolon after it, to the end of the file";
@@ -263,7 +264,8 @@ impl<'a> Lexer<'a> {
         Ok((byte & 0x7f != b';').then_some((byte, place)))
     }
 
-    /// Whether what stands at a place begins as an instruction does; if so, goes back there.
+    /// Goes back to a position if the text there begins like an instruction; returns true if it
+    /// does.
     pub(super) fn back_to_instruction(&mut self, Place(at, line): Place) -> bool {
         let begins = |bytes: &[u8]| bytes.iter().all(u8::is_ascii_alphabetic);
         let found = self.text.get(at..at + 2).is_some_and(begins);
@@ -273,25 +275,26 @@ impl<'a> Lexer<'a> {
         found
     }
 
-    /// A parameter that is one character, if there is one before the semicolon, which is taken.
+    /// Returns a parameter of one character, if there is one before the semicolon, which is
+    /// consumed.
     pub(super) fn character(&mut self) -> Result<Option<u8>, Fault> {
         let character = self.take_if(|byte| byte != b';');
         self.skip_parameters()?;
         Ok(character)
     }
 
-    /// Reads what is to end labels from here on; without a character that is ETX.
+    /// Reads the terminator of labels; ETX by default.
     pub(super) fn label_terminator(&mut self) -> Result<(), Fault> {
         self.terminator = self.character()?.unwrap_or(ETX);
         Ok(())
     }
 
-    /// Puts the label terminator back to ETX.
+    /// Resets the label terminator to ETX.
     pub(super) fn reset_terminator(&mut self) {
         self.terminator = ETX;
     }
 
-    /// What stands before the byte `end`, which is taken too.
+    /// Returns the text before the byte `end`, which is consumed too.
     fn through(&mut self, end: u8, missing: &str) -> Result<&'a [u8], Fault> {
         let start = self.at;
         while let Some(byte) = self.bump() {
@@ -335,7 +338,7 @@ impl<'a> Lexer<'a> {
         Some(byte)
     }
 
-    /// A fault with what is at fault in its line: a number that was just read, or the instruction.
+    /// Adds the position in the line to a fault: the last number, or the instruction.
     pub(super) fn marked(&self, fault: Fault) -> Fault {
         let (number, line) = &self.last;
         match fault.line {
@@ -345,7 +348,7 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// Goes on after a fault, behind the instruction.
+    /// Continues after the instruction of a fault.
     pub(super) fn recover(&mut self) {
         let encoded = self.field == "PE";
         let letters = |pair: &[u8]| pair.iter().all(u8::is_ascii_alphabetic);
@@ -361,12 +364,12 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// A fault of the instruction as a whole.
+    /// Returns a fault of the instruction as a whole.
     pub(super) fn fault(&self, problem: impl Into<String>, allowed: impl Into<String>) -> Fault {
         Fault::new(self.file, self.start, self.field.as_str(), problem, allowed)
     }
 
-    /// A fault at the line reached.
+    /// Returns a fault at the current line.
     pub(super) fn fault_here(
         &self,
         problem: impl Into<String>,
@@ -378,7 +381,7 @@ impl<'a> Lexer<'a> {
 
 const NUMBER: &str = "decimal numbers such as -12.5, separated by commas or spaces";
 
-/// White space, and the control characters that serial lines and old systems leave in files.
+/// True for white space, and control characters that serial lines and old systems leave in files.
 fn is_space(byte: u8) -> bool {
     (byte <= b' ' && byte != ESC) || byte == 0x7f
 }

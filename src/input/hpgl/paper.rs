@@ -1,15 +1,15 @@
-//! The paper: turns the plotter's coordinates, clips at the window and records what the pen does.
+//! Paper: rotates the plotter's coordinates, clips at the window and records the pen's moves.
 
 use crate::input::track::Track;
 use crate::input::{Course, Fault, Move, Point};
 
 use super::scale::{DEFAULT_PAGE, UNITS_PER_MM};
 
-/// The most moves that instructions make which say more than one coordinate pair each: curves,
-/// labels and fills of a whole drawing. A short text could fill any memory else.
+/// Greatest number of moves in a drawing made by instructions that expand: curves, labels and
+/// fills. Without a limit, a short text could fill any memory.
 pub(super) const MOST_MADE: usize = 4_000_000;
 
-/// A quarter turn of the coordinates, or several (RO).
+/// Rotation of the coordinates in quarter turns (RO).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Turn {
     #[default]
@@ -19,7 +19,7 @@ pub(super) enum Turn {
     ThreeQuarters,
 }
 
-/// A rectangle outside of which the pen draws nothing, in plotter units (IW).
+/// Rectangle outside of which the pen does not draw, in plotter units (IW).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Window {
     least: [f64; 2],
@@ -27,7 +27,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Between two opposite corners.
+    /// Creates a window from two opposite corners.
     pub(super) fn between([x1, y1]: [f64; 2], [x2, y2]: [f64; 2]) -> Self {
         Window {
             least: [x1.min(x2), y1.min(y2)],
@@ -40,7 +40,7 @@ impl Window {
         (x1..=x2).contains(&x) && (y1..=y2).contains(&y)
     }
 
-    /// The part of a straight line that is inside, if any. Ends that are inside stay as they are.
+    /// Returns the part of a straight line that is inside, if any. Ends inside are unchanged.
     fn clip(&self, from: [f64; 2], to: [f64; 2]) -> Option<[[f64; 2]; 2]> {
         let (mut enters, mut leaves) = (0.0f64, 1.0f64);
         for axis in 0..2 {
@@ -72,24 +72,24 @@ impl Window {
     }
 }
 
-/// The instruction that moves the pen: its name and line, for moves and faults.
+/// Instruction that moves the pen: its name and line, for moves and faults.
 #[derive(Clone, Copy)]
 pub(super) struct By<'t> {
     pub(super) field: &'t str,
     pub(super) line: usize,
 }
 
-/// What the pen did so far. Points are in plotter units, as the instructions see them: before the
-/// turn of the coordinates.
+/// Moves of the pen so far. Points are in plotter units as seen by the instructions, before the
+/// rotation.
 pub(super) struct Paper<'a> {
     pub(super) track: Track<'a>,
-    /// The size of the paper in plotter units, before the turn.
+    /// Size of the paper in plotter units, before the rotation.
     page: [f64; 2],
     turn: Turn,
     window: Option<Window>,
-    /// Where the pen was sent last.
+    /// Last target of the pen.
     sent: [f64; 2],
-    /// The pen is not there, since that is outside of the window.
+    /// True if the pen is not at its target, which is outside of the window.
     lost: bool,
     made: usize,
 }
@@ -111,12 +111,12 @@ impl<'a> Paper<'a> {
         self.window = window;
     }
 
-    /// Sets the size of the paper. The coordinates must not be turned.
+    /// Sets the size of the paper. The coordinates must not be rotated.
     pub(super) fn set_page(&mut self, page: [f64; 2]) {
         self.page = page;
     }
 
-    /// The size of the paper, as the turned coordinates see it.
+    /// Returns the size of the paper in rotated coordinates.
     pub(super) fn size(&self) -> [f64; 2] {
         let [x, y] = self.page;
         match self.turn {
@@ -125,7 +125,7 @@ impl<'a> Paper<'a> {
         }
     }
 
-    /// Turns the coordinates; takes points from the old to the new ones.
+    /// Rotates the coordinates; converts points from the old to the new ones.
     pub(super) fn turn<const N: usize>(
         &mut self,
         turn: Turn,
@@ -143,7 +143,7 @@ impl<'a> Paper<'a> {
         [x / UNITS_PER_MM, y / UNITS_PER_MM, 0.0]
     }
 
-    /// Moves the pen to a point, drawing if it is down.
+    /// Moves the pen to a point; draws if it is down.
     pub(super) fn go(&mut self, by: By<'_>, to: [f64; 2], down: bool) -> Result<(), Fault> {
         let from = std::mem::replace(&mut self.sent, to);
         let Some(window) = self.window else {
@@ -168,17 +168,17 @@ impl<'a> Paper<'a> {
         Ok(())
     }
 
-    /// Moves the raised pen to a point, unless it is there.
+    /// Moves the raised pen to a point, unless it is already there.
     pub(super) fn travel(&mut self, by: By<'_>, to: [f64; 2]) -> Result<(), Fault> {
         self.make(by, to, false)
     }
 
-    /// Draws a line to a point, unless the pen is there.
+    /// Draws a line to a point, unless the pen is already there.
     pub(super) fn line(&mut self, by: By<'_>, to: [f64; 2]) -> Result<(), Fault> {
         self.make(by, to, true)
     }
 
-    /// Draws a line through points, the pen raised on the way to the first.
+    /// Draws a line through points, with the pen raised on the way to the first.
     pub(super) fn stroke(
         &mut self,
         by: By<'_>,
@@ -201,11 +201,11 @@ impl<'a> Paper<'a> {
         self.go(by, to, down)
     }
 
-    /// Counts what an instruction makes of itself.
+    /// Counts moves made by an instruction that expands.
     ///
     /// # Errors
     ///
-    /// More than [`MOST_MADE`] in all.
+    /// Returns an error if there are more than [`MOST_MADE`] in total.
     pub(super) fn count(&mut self, by: By<'_>, more: usize) -> Result<(), Fault> {
         self.made = self.made.saturating_add(more);
         if self.made <= MOST_MADE {
@@ -216,7 +216,7 @@ impl<'a> Paper<'a> {
         Err(self.track.fault(by.line, by.field, problem, allowed))
     }
 
-    /// How much may still be made.
+    /// Returns the number of moves that may still be made.
     pub(super) fn left(&self) -> usize {
         MOST_MADE.saturating_sub(self.made)
     }
@@ -238,7 +238,7 @@ impl<'a> Paper<'a> {
 }
 
 impl Turn {
-    /// Where a point of the turned coordinates is on the paper. Their origin is at the corner that
+    /// Converts a point from rotated coordinates to the paper. Their origin is at the corner that
     /// is then at the lower left.
     fn to_page(self, [width, height]: [f64; 2], [x, y]: [f64; 2]) -> [f64; 2] {
         match self {
@@ -300,7 +300,7 @@ mod tests {
         ] {
             paper.go(BY, to, down).unwrap();
         }
-        // Without the window the pen first goes where it was sent.
+        // Without the window the pen first moves to its last target.
         paper.set_window(None);
         paper.go(BY, [900.0, 80.0], true).unwrap();
         let moves = paper.track.finish("moves").unwrap().moves;
@@ -330,7 +330,7 @@ mod tests {
     }
 
     proptest! {
-        /// What is drawn is inside, and all that is inside is drawn.
+        /// Everything drawn is inside, and everything inside is drawn.
         #[test]
         fn clipping_keeps_the_inside(
             points in proptest::collection::vec((-300.0..300.0f64, -300.0..300.0f64), 2..20),

@@ -1,10 +1,11 @@
-//! Counts of parameters, and what a lenient reader makes of wrong ones.
+//! Parameter counts, and how a lenient reader handles wrong ones.
 
 use super::Plotter;
 use crate::input::Fault;
 
 impl Plotter<'_> {
-    /// A coordinate pair and the line it begins in, or the end of the instruction.
+    /// Returns a coordinate pair with the line in which it begins; `None` at the end of the
+    /// instruction.
     pub(super) fn pair(&mut self) -> Result<Option<([f64; 2], usize)>, Fault> {
         let Some(x) = self.lexer.number()? else {
             return Ok(None);
@@ -19,8 +20,8 @@ impl Plotter<'_> {
         Ok(None)
     }
 
-    /// The parameters of an instruction that takes one of the given counts, in rising order. If
-    /// lenient, those beyond are left out, and a wrong count of others is none.
+    /// Returns the parameters of an instruction that accepts the given counts, in rising order. A
+    /// lenient reader drops excess parameters, and returns none if the count is wrong otherwise.
     pub(super) fn parameters(&mut self, counts: &[usize]) -> Result<Vec<f64>, Fault> {
         let most = counts.last().copied().unwrap_or(0);
         let mut numbers = Vec::new();
@@ -48,7 +49,7 @@ impl Plotter<'_> {
         Ok(numbers)
     }
 
-    /// Makes a warning of a fault, if lenient.
+    /// Converts a fault to a warning, if lenient.
     pub(super) fn forgive(&mut self, fault: Fault, instead: &str) -> Result<(), Fault> {
         if !self.lenient {
             return Err(fault);

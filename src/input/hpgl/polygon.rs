@@ -1,23 +1,23 @@
 //! The polygon buffer (PM).
 
-/// A corner, in plotter units.
+/// Corner in plotter units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Corner {
     pub(super) at: [f64; 2],
-    /// The pen was down on the way to it.
+    /// True if the pen was down on the way to it.
     pub(super) drawn: bool,
 }
 
-/// What the polygon buffer holds: a polygon of several parts.
+/// Contents of the polygon buffer: a polygon of several parts.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Polygon {
     parts: Vec<Vec<Corner>>,
-    /// Corners go to the last part; otherwise the next begins a new one.
+    /// True if corners are added to the last part; otherwise the next one begins a new part.
     open: bool,
 }
 
 impl Polygon {
-    /// A polygon of one part, its edges drawn.
+    /// Creates a polygon of one part with drawn edges.
     pub(super) fn of(corners: impl IntoIterator<Item = [f64; 2]>) -> Self {
         let mut polygon = Polygon::default();
         for at in corners {
@@ -27,7 +27,7 @@ impl Polygon {
         polygon
     }
 
-    /// Adds a corner. The way to the first of a part is never drawn.
+    /// Adds a corner. The way to the first corner of a part is never drawn.
     pub(super) fn add(&mut self, at: [f64; 2], drawn: bool) {
         match self.parts.last_mut() {
             Some(part) if self.open => part.push(Corner { at, drawn }),
@@ -47,7 +47,7 @@ impl Polygon {
             return;
         };
         match part.as_slice() {
-            // Only a place to start from: no part.
+            // Only a starting point: not a part.
             [] | [_] => drop(self.parts.pop()),
             [first, .., last] if first.at == last.at => {}
             [first, ..] => part.push(Corner {
@@ -61,7 +61,7 @@ impl Polygon {
         &self.parts
     }
 
-    /// The corners of the parts, for filling.
+    /// Returns the corners of the parts, for fills.
     pub(super) fn outlines(&self) -> Vec<Vec<[f64; 2]>> {
         let outline = |part: &Vec<Corner>| part.iter().map(|corner| corner.at).collect();
         self.parts.iter().map(outline).collect()

@@ -1,19 +1,19 @@
-//! Where user units land on the paper.
+//! Mapping of user units to the paper.
 
-/// Plotter units in a millimetre.
+/// Plotter units per millimetre.
 pub(super) const UNITS_PER_MM: f64 = 40.0;
 
-/// The hard-clip limits of an HP 7475A loaded with paper of size A (8.5 by 11 inches), in plotter
+/// Hard-clip limits of an HP 7475A loaded with paper of size A (8.5 by 11 inches), in plotter
 /// units from the origin.
 pub(super) const DEFAULT_PAGE: [f64; 2] = [10_365.0, 7_962.0];
 
-/// P1 and P2 of an HP 7475A loaded with the same paper, in plotter units.
+/// P1 and P2 of an HP 7475A with that paper, in plotter units.
 pub(super) const DEFAULT_CORNERS: Corners = Corners {
     p1: [250.0, 279.0],
     p2: [10_250.0, 7_479.0],
 };
 
-/// The scaling points, in plotter units (IP).
+/// Scaling points in plotter units (IP).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Corners {
     pub(super) p1: [f64; 2],
@@ -21,36 +21,36 @@ pub(super) struct Corners {
 }
 
 impl Corners {
-    /// From P1 to P2, in plotter units.
+    /// Returns the vector from P1 to P2 in plotter units.
     pub(super) fn span(&self) -> [f64; 2] {
         let ([x1, y1], [x2, y2]) = (self.p1, self.p2);
         [x2 - x1, y2 - y1]
     }
 
-    /// The distance of P1 and P2, in plotter units.
+    /// Returns the distance of P1 and P2 in plotter units.
     pub(super) fn diagonal(&self) -> f64 {
         let [x, y] = self.span();
         x.hypot(y)
     }
 }
 
-/// What the user calls P1 and P2, in user units (SC).
+/// User coordinates of P1 and P2 (SC).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Window {
-    /// The user's names of both.
+    /// User coordinates of both.
     Ranges {
         x: [f64; 2],
         y: [f64; 2],
-        /// For equal units on both axes: how much of the room left over goes before the window, 0
-        /// to 1, on each axis. Without it the window fills the whole area from P1 to P2.
+        /// For equal units on both axes: share of the remaining space before the window, 0 to 1,
+        /// on each axis. `None` fills the whole area from P1 to P2.
         isotropic: Option<[f64; 2]>,
     },
-    /// The user's name of P1, and how many plotter units a user unit has.
+    /// User coordinates of P1, and plotter units per user unit.
     Factors { p1: [f64; 2], factors: [f64; 2] },
 }
 
-/// One axis of the mapping: `user` lands at `plotter`, and `den` user units span `num` plotter
-/// units. A fraction rather than a factor: the ends of a window then land on P1 and P2 exactly.
+/// One axis of the mapping: `user` maps to `plotter`, and `den` user units span `num` plotter
+/// units. A fraction rather than a factor: the ends of a window then map to P1 and P2 exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Axis {
     user: f64,
@@ -86,13 +86,13 @@ impl Axis {
         }
     }
 
-    /// Plotter units per user unit, without the sign.
+    /// Returns plotter units per user unit, without the sign.
     fn size(&self) -> f64 {
         (self.num / self.den).abs()
     }
 
-    /// Takes over the size of the `other` axis, which is the smaller, and leaves the given part
-    /// of the room this frees before the window.
+    /// Takes over the smaller size of the `other` axis, and leaves the given share of the freed
+    /// space before the window.
     fn shrink_to(&mut self, other: &Self, before: f64) {
         let room = self.num;
         let mirrored = (self.num < 0.0) != (self.den < 0.0);
@@ -111,7 +111,7 @@ impl Axis {
     }
 }
 
-/// User units to plotter units and back.
+/// Conversion between user and plotter units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Scale {
     x: Axis,
@@ -119,8 +119,8 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// Both pairs of corners must differ on both axes. Without a window, user units are plotter
-    /// units.
+    /// Creates a scale. Both pairs of corners must differ on both axes. Without a window, user
+    /// units are plotter units.
     pub(super) fn new(corners: Corners, window: Option<Window>) -> Self {
         let ([x1, y1], [x2, y2]) = (corners.p1, corners.p2);
         match window {
@@ -150,17 +150,17 @@ impl Scale {
         }
     }
 
-    /// User units to plotter units.
+    /// Converts user units to plotter units.
     pub(super) fn to_plotter(self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.x.to_plotter(x), self.y.to_plotter(y)]
     }
 
-    /// Plotter units to user units.
+    /// Converts plotter units to user units.
     pub(super) fn to_user(self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.x.to_user(x), self.y.to_user(y)]
     }
 
-    /// How many plotter units a user unit along X has.
+    /// Returns plotter units per user unit along X.
     pub(super) fn unit_x(&self) -> f64 {
         self.x.size()
     }
@@ -217,14 +217,14 @@ mod tests {
 
     #[test]
     fn isotropic_units_are_square_and_placed() {
-        // The area is 4000 x 2000, the window 10 x 10: 200 a unit, 2000 left over in X.
+        // Area 4000 x 2000, window 10 x 10: 200 per unit, 2000 remaining in X.
         let unit = ([0.0, 10.0], [0.0, 10.0]);
         for (left, x0) in [(0.0, 400.0), (0.5, 1_400.0), (1.0, 2_400.0)] {
             let scale = scale(unit.0, unit.1, Some([left, 0.25]));
             assert_eq!(scale.to_plotter([0.0, 0.0]), [x0, 800.0]);
             assert_eq!(scale.to_plotter([10.0, 10.0]), [x0 + 2_000.0, 2_800.0]);
         }
-        // 40 x 10: 100 a unit, 1000 left over in Y.
+        // 40 x 10: 100 per unit, 1000 remaining in Y.
         let scale = scale([0.0, 40.0], [0.0, 10.0], Some([0.25, 1.0]));
         assert_eq!(scale.to_plotter([0.0, 0.0]), [400.0, 1_800.0]);
         assert_eq!(scale.to_plotter([40.0, 10.0]), [4_400.0, 2_800.0]);

@@ -1,4 +1,4 @@
-//! Coordinates: IP, IR, SC, IW, RO, PS.
+//! Coordinate settings: IP, IR, SC, IW, RO, PS.
 
 use super::Plotter;
 use super::paper::{self, Turn};
@@ -18,7 +18,7 @@ impl Plotter<'_> {
         self.set_corners(corners)
     }
 
-    /// P1 and P2 as percentages of the paper's size.
+    /// Sets P1 and P2 as percentages of the paper's size (IR).
     pub(super) fn input_relative_corners(&mut self) -> Result<(), Fault> {
         let size = self.paper.size();
         let on = |axis: usize, percent: f64| size[axis] * percent / 100.0;
@@ -36,7 +36,7 @@ impl Plotter<'_> {
         self.set_corners(corners)
     }
 
-    /// The corners with P1 somewhere else and P2 where it is from there.
+    /// Returns the corners with P1 moved and P2 at the same distance from it.
     fn moved_corners(&self, p1: [f64; 2]) -> Corners {
         let [x, y] = self.corners.span();
         Corners {
@@ -116,7 +116,7 @@ impl Plotter<'_> {
         Ok(())
     }
 
-    /// The window outside of which nothing is drawn, its corners in user units.
+    /// Sets the window outside of which nothing is drawn; its corners are in user units.
     pub(super) fn clip(&mut self) -> Result<(), Fault> {
         let window = match *self.parameters(&[0, 4])? {
             [x1, y1, x2, y2] => {
@@ -145,23 +145,23 @@ impl Plotter<'_> {
         Ok(())
     }
 
-    /// Turns the coordinates. The pen stays where it is on the paper; P1, P2 and the window keep
-    /// their coordinates.
+    /// Rotates the coordinates. The pen keeps its position on the paper; P1, P2 and the window
+    /// keep their coordinates.
     pub(super) fn turn(&mut self, turn: Turn) {
         let here = self.here();
         let [new, carriage] = self.paper.turn(turn, [here, self.text.carriage]);
-        // So that without a turn not even the rounding changes.
+        // Without a rotation not even the rounding changes.
         if new != here {
             self.at = self.scale.to_user(new);
         }
         self.text.carriage = carriage;
     }
 
-    /// The size of the paper, which turns of the coordinates and IR go by. P1 and P2 stay.
+    /// Sets the size of the paper, which rotations and IR use. P1 and P2 stay.
     pub(super) fn plot_size(&mut self) -> Result<(), Fault> {
         let line = self.lexer.start();
         match *self.parameters(&[0, 1, 2])? {
-            // The HP 7475A's: one number, 0 to 127, chooses one of two sizes.
+            // On the HP 7475A, one number, 0 to 127, chooses one of two sizes.
             [] | [_] => self.note("PS", line, || "PS: skipped".to_owned()),
             [length, width] if length > 0.0 && width > 0.0 => {
                 self.turn(Turn::None);

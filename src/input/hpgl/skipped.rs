@@ -1,38 +1,38 @@
-//! Instructions that move no pen, and those that are not known.
+//! Instructions that move no pen, and unknown ones.
 
 use super::Plotter;
 use super::lexer::Mnemonic;
 use crate::input::Fault;
 
-/// Instructions of HPGL, HPGL/2 and of makers of plotters that neither move the pen nor change
-/// where it goes.
+/// Instructions of HPGL, HPGL/2 and of plotter makers that neither move the pen nor change its
+/// path.
 const STILL: &[&[u8; 2]] = &[
-    // The machine: speed, force, pens, memory, keys, answers to the computer.
+    // Machine: speed, force, pens, memory, keys, answers to the computer.
     b"AP", b"AS", b"EC", b"FS", b"GC", b"GM", b"GP", b"IM", b"KY", b"MT", b"NP", b"NR", b"OA",
     b"OC", b"OD", b"OE", b"OF", b"OG", b"OH", b"OI", b"OK", b"OL", b"OO", b"OP", b"OS", b"OT",
     b"OW", b"QL", b"ST", b"VA", b"VN", b"VS", b"DC", b"DP", // How lines look.
     b"CR", b"CV", b"LA", b"LT", b"MC", b"PC", b"PP", b"RF", b"SV", b"TR", b"UL",
-    // What letters look like: there is one font.
+    // Style of letters: there is one font.
     b"AD", b"CA", b"CC", b"CF", b"CM", b"CS", b"DL", b"DS", b"FI", b"FN", b"IV", b"LM", b"SA",
     b"SB", b"SD", b"SS", b"TD", // Comments and messages.
     b"CO", b"MG", b"WD",
 ];
 
-/// Instructions that begin another page or another copy.
+/// Instructions that begin another page or copy.
 const PAGES: &[&[u8; 2]] = &[b"AF", b"AH", b"FR", b"PG", b"RP"];
 
-/// Instructions of Roland's and others, with an exclamation mark, that move no pen: page feed, tool,
+/// Instructions of Roland and others, with an exclamation mark, that move no pen: page feed, tool,
 /// force, not ready, speed, dwell, motor.
 const MAKERS_STILL: &[&[u8; 2]] = &[
     b"PG", b"ST", b"FS", b"NR", b"VS", b"DW", b"MC", b"RC", b"CT", b"AS",
 ];
 
 impl Plotter<'_> {
-    /// An instruction that is not acted on.
+    /// Skips an instruction.
     ///
     /// # Errors
     ///
-    /// One that is not known, unless lenient.
+    /// Returns an error for an unknown one, unless lenient.
     pub(super) fn skip(&mut self, mnemonic: Mnemonic, line: usize) -> Result<(), Fault> {
         let name = mnemonic.as_str();
         let letters = &mnemonic.0;
@@ -47,11 +47,11 @@ impl Plotter<'_> {
         self.skip_arguments(mnemonic)
     }
 
-    /// An instruction with an exclamation mark.
+    /// Skips an instruction with an exclamation mark.
     ///
     /// # Errors
     ///
-    /// One that is not known, unless lenient.
+    /// Returns an error for an unknown one, unless lenient.
     pub(super) fn makers_own(&mut self, mnemonic: Mnemonic) -> Result<(), Fault> {
         let line = self.lexer.start();
         let name = format!("!{mnemonic}");
@@ -74,7 +74,7 @@ impl Plotter<'_> {
         Ok(())
     }
 
-    /// Skips what belongs to an instruction.
+    /// Skips the parameters of an instruction.
     pub(super) fn skip_arguments(&mut self, mnemonic: Mnemonic) -> Result<(), Fault> {
         match &mnemonic.0 {
             b"LB" | b"BL" | b"WD" => self.lexer.label().map(|_| ()),

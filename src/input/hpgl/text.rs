@@ -1,24 +1,24 @@
-//! How labels are written: sizes, directions and steps.
+//! Size, direction and spacing of labels.
 
 use super::scale::{Corners, UNITS_PER_MM};
 
-/// What the instructions for labels set.
+/// Settings of labels.
 #[derive(Debug, Clone)]
 pub(super) struct Text<'a> {
     pub(super) size: Size,
     pub(super) direction: Direction,
-    /// The tangent of the angle that letters lean by (SL).
+    /// Tangent of the slant angle of letters (SL).
     pub(super) slant: f64,
-    /// Where the label stands from the pen (LO).
+    /// Position of the label relative to the pen (LO).
     pub(super) origin: u8,
     pub(super) path: Path,
-    /// More room between letters and lines, in widths and heights of cells (ES).
+    /// Additional space between letters and lines, in widths and heights of cells (ES).
     pub(super) extra: [f64; 2],
-    /// What PB writes (BL).
+    /// Text written by PB (BL).
     pub(super) buffer: &'a [u8],
-    /// What is drawn at every point (SM).
+    /// Symbol drawn at every point (SM).
     pub(super) symbol: Option<u8>,
-    /// Where carriage returns lead, in plotter units.
+    /// Target of carriage returns in plotter units.
     pub(super) carriage: [f64; 2],
 }
 
@@ -42,22 +42,22 @@ impl Default for Text<'_> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Size {
     Centimetres([f64; 2]),
-    /// Of what is between P1 and P2.
+    /// Percentage of the distance of P1 and P2.
     Percent([f64; 2]),
 }
 
 impl Default for Size {
-    /// That of an HP 7475A with paper of size A.
+    /// Returns the size on an HP 7475A with paper of size A.
     fn default() -> Self {
         Size::Centimetres([0.187, 0.269])
     }
 }
 
-/// The way of the base line: run and rise (DI, DR).
+/// Direction of the base line: run and rise (DI, DR).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Direction {
     Absolute([f64; 2]),
-    /// Of what is between P1 and P2.
+    /// Percentage of the distance of P1 and P2.
     Relative([f64; 2]),
 }
 
@@ -67,7 +67,7 @@ impl Default for Direction {
     }
 }
 
-/// Where the next letter stands (DV).
+/// Direction from a letter to the next (DV).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Path {
     #[default]
@@ -77,14 +77,14 @@ pub(super) enum Path {
     Up,
 }
 
-/// A letter's own directions, in plotter units.
+/// Axes of a letter in plotter units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Frame {
-    /// Along the base line, as long as a capital letter is wide.
+    /// Along the base line, with the length of a capital letter's width.
     pub(super) width: [f64; 2],
-    /// From the base line up, as long as a capital letter is high, and leaning as it does.
+    /// Up from the base line, with the length of a capital letter's height, slanted.
     pub(super) height: [f64; 2],
-    /// From the base line up without leaning.
+    /// Up from the base line, not slanted.
     pub(super) upright: [f64; 2],
     /// From a cell to the next along the base line.
     pub(super) column: [f64; 2],
@@ -92,11 +92,11 @@ pub(super) struct Frame {
     pub(super) row: [f64; 2],
 }
 
-/// A cell is one and a half letters wide and two high.
+/// Width and height of a cell in letters.
 const CELL: [f64; 2] = [1.5, 2.0];
 
 impl Text<'_> {
-    /// The directions of letters with the given corners.
+    /// Returns the axes of letters for the given corners.
     pub(super) fn frame(&self, corners: &Corners) -> Frame {
         let [across, up] = corners.span();
         let [width, height] = match self.size {
@@ -125,12 +125,12 @@ impl Text<'_> {
 }
 
 impl Frame {
-    /// A point of a letter that stands at `at`.
+    /// Returns a point of a letter at `at`.
     pub(super) fn point(&self, at: [f64; 2], [x, y]: [f64; 2]) -> [f64; 2] {
         add(add(at, self.width, x), self.height, y)
     }
 
-    /// From one letter to the next.
+    /// Returns the step from one letter to the next.
     pub(super) fn step(&self, path: Path) -> [f64; 2] {
         match path {
             Path::Right => self.column,
@@ -140,7 +140,7 @@ impl Frame {
         }
     }
 
-    /// From one line to the next.
+    /// Returns the step from one line to the next.
     pub(super) fn feed(&self, path: Path) -> [f64; 2] {
         match path {
             Path::Right | Path::Left => self.row.map(|part| -part),
@@ -149,7 +149,7 @@ impl Frame {
     }
 }
 
-/// A point and a multiple of a step from there.
+/// Returns a point plus a multiple of a step.
 pub(super) fn add(at: [f64; 2], step: [f64; 2], times: f64) -> [f64; 2] {
     [at[0] + step[0] * times, at[1] + step[1] * times]
 }

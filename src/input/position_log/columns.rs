@@ -1,56 +1,56 @@
-//! Which columns of a log have the times and the counts.
+//! Selection of the columns with the times and the counts.
 
 use super::{Log, whole};
 use crate::input::Fault;
 
-/// What to take from a log.
+/// Selection of a log's columns.
 ///
-/// A column is given by its name, or by its number from 1. Without one, the times are in the column
-/// `time` and the counts in the column `counts`. Where there is no such column, the log is looked
-/// through: times rise from line to line or at least do not fall, counts are whole numbers, written
-/// without a point if there are such, and neither is an index, a column that rises by one from line
-/// to line or one without a name among named ones, if there is another. Of what is left the first is
-/// taken, the counts on the right of the times; on their left only if one of the two is given or
-/// called so.
+/// A column is given by its name, or by its number from 1. By default, times are in the column
+/// `time` and counts in the column `counts`. If there is no such column, the contents decide.
+/// Times rise from line to line, or at least do not fall. Counts are whole numbers, written
+/// without a point if there are any such. Neither is an index (a column that rises by one from
+/// line to line, or one without a name among named ones) if there is another column. The first
+/// suitable pair is taken, with the counts on the right of the times; they may be on the left only
+/// if one of the two is given or has its usual name.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Columns {
-    /// The column of times.
+    /// Column of times.
     pub time: Option<String>,
-    /// The column of counts.
+    /// Column of counts.
     pub counts: Option<String>,
-    /// Seconds in a unit of time; without it the log says the unit.
+    /// Seconds per unit of time; by default the log determines the unit.
     pub time_unit_s: Option<f64>,
 }
 
-/// A column of a log.
+/// Column of a log.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
-    /// Where it stands, from 0.
+    /// Index, from 0.
     pub index: usize,
-    /// What faults call it: its name, or else what it has and its number from 1.
+    /// Name in faults: its name, or else its content and its number from 1.
     pub name: String,
-    /// It was asked for, or the log calls it `time` or `counts`.
+    /// True if it was requested, or the log names it `time` or `counts`.
     pub named: bool,
 }
 
-/// Columns beyond are taken only if they are asked for.
+/// Number of columns that are considered without being requested.
 const MOST_LOOKED_THROUGH: usize = 256;
 
-/// What a column has in all lines.
+/// Properties of a column over all lines.
 #[derive(Debug, Clone, Copy)]
 struct Column {
     first: Option<f64>,
     last: Option<f64>,
-    /// Finite numbers.
+    /// True if all are finite numbers.
     numeric: bool,
-    /// Whole numbers in range.
+    /// True if all are whole numbers in range.
     whole: bool,
-    /// Written without a point.
+    /// True if all are written without a point.
     plain: bool,
     falls: bool,
-    /// A number is equal to the one before.
+    /// True if a number is equal to the one before.
     stands: bool,
-    /// Every number is one above the one before.
+    /// True if every number is one above the one before.
     by_ones: bool,
 }
 
@@ -84,23 +84,23 @@ impl Column {
 }
 
 impl Column {
-    /// Times as they may be: of a coarse clock some are equal.
+    /// True if the column may be times: a coarse clock may repeat some.
     fn rises(&self) -> bool {
         self.numeric && !self.falls && self.first < self.last
     }
 }
 
-/// What the columns of a log have.
+/// Properties of a log's columns.
 pub(super) struct Survey {
-    /// The line of the first record.
+    /// Line of the first record.
     line: usize,
-    /// The names of the columns, if the first record has them.
+    /// Names of the columns, if the first record has them.
     header: Option<Vec<String>>,
     columns: Vec<Column>,
 }
 
 impl Survey {
-    /// Begins with the first record, which has names if no field of it is a number.
+    /// Begins with the first record, which has names if none of its fields is a number.
     pub(super) fn begin(line: usize, fields: &[&str]) -> Self {
         let named = fields.iter().all(|field| field.parse::<f64>().is_err());
         let mut survey = Survey {
@@ -121,17 +121,17 @@ impl Survey {
         }
     }
 
-    /// Whether the names stand in a line.
+    /// True if a line has the names.
     pub(super) fn is_header(&self, line: usize) -> bool {
         self.header.is_some() && line == self.line
     }
 
-    /// The line of the first record.
+    /// Returns the line of the first record.
     pub(super) fn line(&self) -> usize {
         self.line
     }
 
-    /// The name of a column.
+    /// Returns the name of a column.
     pub(super) fn name(&self, index: usize) -> Option<&str> {
         let name = self.header.as_ref()?.get(index)?;
         Some(name.as_str()).filter(|name| !name.is_empty())
@@ -145,7 +145,7 @@ impl Survey {
         Place { index, name, named }
     }
 
-    /// Whether a column is one that programs put beside the data.
+    /// True for a column that programs put beside the data.
     fn is_index(&self, index: usize) -> bool {
         let by_ones = self.columns.get(index).is_some_and(|column| column.by_ones);
         by_ones || self.is_nameless(index)
@@ -165,7 +165,7 @@ impl Survey {
 }
 
 impl Columns {
-    /// The columns of times and counts.
+    /// Returns the columns of times and counts.
     pub(super) fn choose(&self, log: &Log<'_>, survey: &Survey) -> Result<(Place, Place), Fault> {
         let line = survey.line;
         let all = 0..survey.columns.len();
@@ -209,8 +209,8 @@ impl Columns {
     }
 }
 
-/// The best pair of columns for times and counts, where those are not given. There are two columns
-/// at least. Where none will do, the first that could stand so: reading them says what is wrong.
+/// Returns the best pair of columns for times and counts, if they are not given, out of at least
+/// two. If no pair is suitable, returns the first possible one: reading it reports the problem.
 fn best(survey: &Survey, time: Option<usize>, counts: Option<usize>) -> (usize, usize) {
     let columns = &survey.columns[..survey.columns.len().min(MOST_LOOKED_THROUGH)];
     let unfit = |time_at: usize, counts_at: usize| {
@@ -291,14 +291,14 @@ mod tests {
     #[test]
     fn columns_are_found_by_what_they_have() {
         for (text, time, counts) in [
-            // Two columns: the times first, unless a name says so.
+            // Two columns: times first, unless a name decides otherwise.
             ("1,2\n3,4\n", 0, 1),
             ("0,0\n1,12\n2,30\n", 0, 1),
             ("0,0\n5,1\n10,2\n", 0, 1),
             ("a,b\n1,2\n3,4\n", 0, 1),
             ("b,time\n1,2\n3,4\n", 1, 0),
             ("counts,t\n1,2\n3,4\n", 1, 0),
-            // An index beside them, with a name or without.
+            // An index beside them, with or without a name.
             (",time,left\n0,7170,0\n1,7175,12\n", 1, 2),
             ("n,time,left\n0,7170,0\n1,7175,12\n", 1, 2),
             ("n,t,left\n0,7170,0\n1,7175,12\n2,7180,11\n", 1, 2),
@@ -309,7 +309,7 @@ mod tests {
             // Counts on the right of the times.
             ("left,time,right\n1,7170,3\n5,7175,9\n", 1, 2),
             ("left,time,\n1,7170,3\n5,7175,4\n", 1, 0),
-            // Fractions and words are no counts, nor is what is out of range.
+            // Fractions and words are no counts, nor are numbers out of range.
             ("time,mm,left\n1,0.5,3\n2,0.25,4\n", 0, 2),
             ("time,mode,left\n1,on,3\n2,off,4\n", 0, 2),
             ("time,big,left\n1,9999999999,3\n2,1,4\n", 0, 2),
@@ -325,7 +325,7 @@ mod tests {
         }
         let log = accept("n,time,left\n0,70,0\n1,75,12\n", &Columns::default());
         assert_eq!((log.time.named, log.counts.named), (true, false));
-        // Names are honoured, whatever the column has.
+        // Names decide, whatever the column contains.
         let log = accept("counts,time,left\n0,70,0\n1,75,12\n", &Columns::default());
         assert_eq!((log.time.index, log.counts.index), (1, 0));
         let log = accept("n,time,left\n0,70,0\n1,75,12\n", &with("", "n"));

@@ -10,7 +10,7 @@ fn refuse(text: &str, columns: &Columns) -> String {
         .to_string()
 }
 
-/// Counts and lines of the samples.
+/// Returns counts and lines of the samples.
 fn samples(log: &PositionLog) -> Vec<(i64, usize)> {
     let of = |sample: &Sample| (sample.counts, sample.line);
     log.samples.iter().map(of).collect()
@@ -182,7 +182,7 @@ fn there_is_a_most_of_samples() {
     );
 }
 
-/// Of a file that is no log the first record may be all there is.
+/// In a file that is not a log the first record may be everything.
 #[test]
 fn a_record_has_an_end() {
     let allowed = format!("records of at most {LONGEST_RECORD} bytes");
@@ -198,11 +198,11 @@ fn a_record_has_an_end() {
         );
         assert_eq!(fault.allowed, allowed);
     }
-    // Quotes may hold lines.
+    // Quotes may contain lines.
     let text = format!("0,0\n\"{}", "7\n".repeat(LONGEST_RECORD));
     let fault = read("z.csv", text.as_bytes(), &Columns::default()).unwrap_err();
     assert_eq!(fault.problem, "a record without an end");
-    // Comments and records of the whole log may be longer together.
+    // Comments and records of the whole log may be longer in total.
     let comments = "# a comment\n\n".repeat(LONGEST_RECORD / 8);
     let samples: String = (0..300_000).map(|k| format!("{k},7\n")).collect();
     let text = format!("{comments}time_ms,counts\n{samples}");

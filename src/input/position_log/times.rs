@@ -1,17 +1,17 @@
-//! Times of a log: read to the last digit, and the unit that they are in.
+//! Times of a log, read to the last digit, and their unit.
 
 use std::fmt;
 
-/// The median step of a log lies between these, in seconds.
+/// Range of a log's median step, in seconds.
 const STEP_S: (f64, f64) = (1e-5, 1.0);
 
-/// How near the ends of that range a step counts as on them.
+/// Tolerance at the ends of that range.
 const ROUNDING: f64 = 1e-6;
 
-/// The units that a step may choose, with how many there are to a second.
+/// Units that a step may determine, with their number per second.
 const UNITS: [(&str, f64); 4] = [("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9)];
 
-/// A time as it is written: large epoch offsets keep their digits.
+/// Time as written: large epoch offsets keep their digits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Time {
     whole: i128,
@@ -19,7 +19,7 @@ pub(super) struct Time {
 }
 
 impl Time {
-    /// Reads a number; none where it is no finite one.
+    /// Parses a number; `None` if it is not finite.
     pub(super) fn read(text: &str) -> Option<Self> {
         let number = text
             .parse()
@@ -27,7 +27,7 @@ impl Time {
             .filter(|number: &f64| number.is_finite())?;
         let (digits, part) = text.split_once('.').unwrap_or((text, ""));
         let part = format!("0.{part}").parse().ok();
-        // With an exponent, or more digits than a whole number has.
+        // With an exponent, or more digits than a whole number holds.
         let rough = Time {
             whole: number as i128,
             part: number.fract(),
@@ -47,13 +47,13 @@ impl Time {
         )
     }
 
-    /// Time since another, in the unit of both.
+    /// Returns the time since another, in their common unit.
     pub(super) fn since(self, other: Self) -> f64 {
         self.whole.saturating_sub(other.whole) as f64 + (self.part - other.part)
     }
 }
 
-/// Source of the unit that the times of a log are in.
+/// Source of the time unit of a log.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UnitFrom {
     /// [`Columns::time_unit_s`](super::Columns::time_unit_s).
@@ -64,23 +64,23 @@ pub enum UnitFrom {
     Step,
 }
 
-/// The unit of a log's times.
+/// Unit of a log's times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unit {
-    /// Seconds in it.
+    /// Length of the unit in seconds.
     pub seconds: f64,
     /// Source of the unit.
     pub from: UnitFrom,
 }
 
 impl Unit {
-    /// The name of the unit, and how many there are to a second.
+    /// Returns the name of the unit, and its number per second.
     fn named(&self) -> Option<&'static (&'static str, f64)> {
         let is = |(_, each): &&(&str, f64)| (self.seconds * each - 1.0).abs() < 1e-12;
         UNITS.iter().find(is)
     }
 
-    /// A time of this unit in seconds.
+    /// Converts a time of this unit to seconds.
     pub(super) fn seconds_of(&self, time: f64) -> f64 {
         match self.named() {
             Some((_, each)) => time / each,
@@ -98,12 +98,12 @@ impl fmt::Display for Unit {
     }
 }
 
-/// The unit that the name of a column has: in brackets at its end, or as its last word, as in
+/// Returns the unit in the name of a column: in brackets at its end, or as its last word, as in
 /// `Time [s]`, `time_ms` and `TimeUS`.
 ///
 /// # Errors
 ///
-/// Brackets with another text, which is returned.
+/// Returns the text in brackets if it is not a unit.
 pub(super) fn unit_of(name: &str) -> Result<Option<Unit>, &str> {
     let name = name.trim();
     let unit = |word: &str| {
@@ -142,11 +142,11 @@ pub(super) fn unit_of(name: &str) -> Result<Option<Unit>, &str> {
     Ok(unit(&name[begin..]))
 }
 
-/// The unit in which the median of some steps, each above 0, lies in the usual range.
+/// Returns the unit in which the median of some steps, each above 0, is in the usual range.
 ///
 /// # Errors
 ///
-/// None of the units, or two of them: the median, and what it would be in each.
+/// Returns the median if no unit matches or two do, and its value in each matching unit.
 pub(super) fn unit_by_steps(steps: &mut [f64]) -> Result<Unit, (f64, Vec<String>)> {
     steps.sort_unstable_by(f64::total_cmp);
     let median = steps.get(steps.len() / 2).copied().unwrap_or(0.0);
@@ -157,7 +157,7 @@ pub(super) fn unit_by_steps(steps: &mut [f64]) -> Result<Unit, (f64, Vec<String>
         };
         UNITS.iter().filter(lies).collect::<Vec<_>>()
     };
-    // A step on an end of the range, where no other unit has it inside.
+    // A step at an end of the range, if no other unit has it inside.
     let mut found = fits(ROUNDING);
     if found.is_empty() {
         found = fits(-ROUNDING);

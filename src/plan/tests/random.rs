@@ -1,7 +1,7 @@
 use super::*;
 use proptest::prelude::*;
 
-/// How far, on an arc about which centre (from the start) and clockwise or not, rapid or not, feed.
+/// End of a move, centre of an arc (from the start) with its direction, rapid, feed.
 type AnyMove = (Point, Option<([f64; 2], bool)>, bool, Option<f64>);
 
 fn any_move() -> impl Strategy<Value = AnyMove> {
@@ -34,7 +34,7 @@ proptest! {
             });
             at = match course {
                 Course::Line | Course::Spline { .. } => std::array::from_fn(|k| at[k] + by[k]),
-                // Round by an arbitrary angle, to a radius off by up to a tenth.
+                // Any angle, and a radius off by up to a tenth.
                 Course::Arc { centre, .. } => {
                     let r = (at[0] - centre[0]).hypot(at[1] - centre[1]) * (1.0 + by[1] / 500.0);
                     let (sin, cos) = by[0].sin_cos();

@@ -1,22 +1,22 @@
-//! The numbers of a braked body, and what is allowed of them.
+//! Parameters of a braked body, and their allowed ranges.
 
 use crate::plant::parameters::POSITIVE;
 use crate::settings::{SettingError, within};
 use serde::{Deserialize, Serialize};
 
-/// Motor drive, body, brake and encoder.
+/// Parameters of motor drive, body, brake and encoder.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BodyParameters {
-    /// Encoder counts a turn: four times its lines.
+    /// Encoder counts per turn: four times its lines.
     pub counts_per_rev: f64,
-    /// The drive's acceleration, whatever the load, in counts/s².
+    /// Acceleration of the drive, independent of the load, in counts/s².
     pub acceleration_counts_per_s2: f64,
     /// Inertia of motor and body before the load changes, in kg·m².
     pub inertia_kg_m2: f64,
     /// Coulomb friction of the bearings before the load changes, in N·m; 0 for none.
     pub friction_nm: f64,
-    /// Time from the control signal until the brake bites, in seconds.
+    /// Time from the control signal until the brake engages, in seconds.
     pub brake_dead_time_s: f64,
     /// Friction torque of the new brake, in N·m.
     pub brake_torque_nm: f64,
@@ -25,7 +25,7 @@ pub struct BodyParameters {
 }
 
 impl Default for BodyParameters {
-    /// A rotary table that stops from 90,000 counts a second in 42 ms.
+    /// Returns a rotary table that stops from 90,000 counts per second in 42 ms.
     fn default() -> Self {
         BodyParameters {
             counts_per_rev: 90_000.0,
@@ -44,7 +44,7 @@ impl BodyParameters {
     ///
     /// # Errors
     ///
-    /// [`SettingError`] names the first that is outside its range or not a number.
+    /// Returns a [`SettingError`] that names the first field outside its range or not a number.
     pub fn validate(&self) -> Result<(), SettingError> {
         let from_zero = 0.0..=*POSITIVE.end();
         let acceleration = self.acceleration_counts_per_s2;
@@ -57,14 +57,14 @@ impl BodyParameters {
         within("brake_fade", self.brake_fade, &(0.0..=0.5))
     }
 
-    /// Encoder counts a radian.
+    /// Returns the encoder counts per radian.
     #[inline]
     pub fn counts_per_rad(&self) -> f64 {
         self.counts_per_rev / std::f64::consts::TAU
     }
 
-    /// Way from the brake's control signal to rest, at this speed without a load and with a new
-    /// brake, in counts: v·td + v²/2a where the bearings have no friction.
+    /// Returns the distance from the brake's control signal to rest, at this speed without a load
+    /// and with a new brake, in counts: v·td + v²/2a if the bearings have no friction.
     pub fn stopping_way_counts(&self, speed_counts_per_s: f64) -> f64 {
         let per_nm = self.counts_per_rad() / self.inertia_kg_m2;
         let coasting = self.friction_nm * per_nm;
@@ -72,27 +72,27 @@ impl BodyParameters {
         let dead = self.brake_dead_time_s;
         let bite = speed_counts_per_s - coasting * dead;
         if bite <= 0.0 && coasting > 0.0 {
-            // It stands before the brake bites.
+            // Stops before the brake engages.
             return speed_counts_per_s * speed_counts_per_s / (2.0 * coasting);
         }
         (speed_counts_per_s + bite) / 2.0 * dead + bite * bite / (2.0 * braking)
     }
 }
 
-/// What the body carries, as factors of what it is without.
+/// Load of the body, as factors of the values without load.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    /// Of the inertia.
+    /// Factor of the inertia.
     pub load_inertia_factor: f64,
-    /// Of the bearings' friction.
+    /// Factor of the bearings' friction.
     pub load_friction_factor: f64,
-    /// Of the brake's friction torque: a loaded brake gets hot.
+    /// Factor of the brake's friction torque: a loaded brake gets hot.
     pub load_brake_factor: f64,
 }
 
 impl Load {
-    /// Nothing.
+    /// No load.
     pub const NONE: Self = Load {
         load_inertia_factor: 1.0,
         load_friction_factor: 1.0,
@@ -103,7 +103,7 @@ impl Load {
     ///
     /// # Errors
     ///
-    /// [`SettingError`] names the first that is outside its range or not a number.
+    /// Returns a [`SettingError`] that names the first factor outside its range or not a number.
     pub fn validate(&self) -> Result<(), SettingError> {
         let factors = 1e-3..=1e3;
         within("load_inertia_factor", self.load_inertia_factor, &factors)?;

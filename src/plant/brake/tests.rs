@@ -1,4 +1,4 @@
-//! The braked body against the closed forms of its equations.
+//! Braked body compared with the closed forms of its equations.
 
 use super::*;
 use std::f64::consts::TAU;
@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 const TICK_S: f64 = 1e-5;
 const SPEED: f64 = 40_000.0;
 
-/// Round numbers: friction takes 50,000 counts/s², friction and brake 1,000,000.
+/// Round numbers: friction decelerates by 50,000 counts/s², friction and brake by 1,000,000.
 const PARAMETERS: BodyParameters = BodyParameters {
     counts_per_rev: 1000.0 * TAU,
     acceleration_counts_per_s2: 400_000.0,
@@ -25,7 +25,7 @@ fn ticks(seconds: f64) -> usize {
     (seconds / TICK_S).round() as usize
 }
 
-/// Up to speed, by `sign`.
+/// Accelerates to full speed, in the direction of `sign`.
 fn moving(body: &mut BrakedBody, sign: f64) {
     for _ in 0..ticks(0.2) {
         body.step(true, sign < 0.0, SPEED, false);
@@ -33,7 +33,7 @@ fn moving(body: &mut BrakedBody, sign: f64) {
     assert_eq!(body.speed_counts_per_s(), sign * SPEED);
 }
 
-/// Counts from the control signal to rest.
+/// Returns the counts from the control signal to rest.
 fn stop(body: &mut BrakedBody) -> f64 {
     let from = body.position_counts();
     for _ in 0..ticks(0.3) {
@@ -43,7 +43,7 @@ fn stop(body: &mut BrakedBody) -> f64 {
     body.position_counts() - from
 }
 
-/// The same by the closed form, with these decelerations.
+/// Returns the stopping distance in closed form, with these decelerations.
 fn stop_distance(speed: f64, coasting: f64, braked: f64) -> f64 {
     let dead = PARAMETERS.brake_dead_time_s;
     let bite = speed - coasting * dead;
@@ -81,7 +81,7 @@ fn the_drive_ramps_to_its_speed_and_holds_it() {
     }
 }
 
-/// At its speed, slower, and so slow that the bearings stop it before the brake bites.
+/// At its speed, slower, and so slowly that the bearings stop it before the brake engages.
 #[test]
 fn the_stopping_way_is_what_a_new_brake_takes() {
     for speed in [SPEED, 5_000.0, 500.0, 0.0] {
@@ -111,7 +111,7 @@ fn it_stops_after_dead_time_and_braking() {
         moving(&mut body, sign);
         let wanted = stop_distance(SPEED, 5e4, 1e6);
         assert_near(stop(&mut body), sign * wanted);
-        // It holds: 0.3 s more, and the encoder with it.
+        // Holds for 0.3 s more, and so does the encoder.
         let channels = body.channels();
         assert_eq!(stop(&mut body), 0.0);
         assert_eq!(body.channels(), channels);
@@ -133,13 +133,13 @@ fn the_brake_bites_when_the_dead_time_is_over_and_lets_go_with_its_signal() {
     body.step(false, false, 0.0, false);
     assert!(!body.engaged());
     assert_near(body.speed_counts_per_s(), speed - 5e4 * TICK_S);
-    // The dead time begins anew; until it is over the motor still drives.
+    // The dead time starts again; until it is over the motor still drives.
     for _ in 0..dead {
         body.step(true, false, SPEED, true);
         assert!(!body.engaged());
     }
     assert_eq!(body.speed_counts_per_s(), SPEED);
-    // An engaged brake beats it.
+    // An engaged brake overrides the motor.
     for _ in 0..ticks(0.2) {
         body.step(true, false, SPEED, true);
     }
@@ -189,7 +189,7 @@ fn each_braking_takes_its_part_of_the_torque() {
         );
         body.step(false, false, 0.0, false);
     }
-    // A brake that is put on at rest does not rub.
+    // A brake that engages at rest does not slip.
     stop(&mut body);
     body.step(false, false, 0.0, false);
     assert_eq!(body.brakings(), 5);

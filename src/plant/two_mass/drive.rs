@@ -1,15 +1,16 @@
-//! A tick: pieces in which nothing changes its course for longer than half a radian, each split at
+//! Simulation of a tick in pieces of at most half a radian of the fastest motion, each split at
 //! its events.
 
 use super::TwoMassAxis;
 use super::events::{Event, Flank, Grip, Guards};
 use super::motion::{Regime, State, falls_below_zero, sum};
 
-/// Most events in a piece; more are a tie within rounding, and the piece is taken as it is.
+/// Greatest number of events in a piece; more are a tie within rounding, and the piece continues
+/// without them.
 const EVENTS: usize = 40;
 
 impl TwoMassAxis {
-    /// A tick under this torque.
+    /// Advances one tick under this torque.
     #[inline]
     pub(super) fn drive(&mut self, torque_nm: f64) {
         self.torque_nm = torque_nm;
@@ -28,7 +29,7 @@ impl TwoMassAxis {
         }
     }
 
-    /// A piece of a tick, split at its events.
+    /// Advances a piece of a tick, split at its events.
     fn piece(&mut self) {
         let torques = self.torques();
         let guards = self.guards();
@@ -51,7 +52,7 @@ impl TwoMassAxis {
         }
     }
 
-    /// A time within the reach of the series, event by event.
+    /// Advances by a time within the reach of the series, event by event.
     #[cold]
     fn split(&mut self, time_s: f64) {
         let mut left = time_s;
@@ -93,7 +94,7 @@ impl TwoMassAxis {
         self.break_loose();
     }
 
-    /// Bodies at rest start where the torque on them exceeds what holds them.
+    /// Starts bodies at rest if the torque on them exceeds the holding torque.
     #[inline]
     fn break_loose(&mut self) {
         let shaft = self.shaft_torque_nm();
@@ -106,9 +107,9 @@ impl TwoMassAxis {
         }
     }
 
-    /// Up to which torque motor and load are held at rest: their stiction, and as much above it as
-    /// rounding may make of it. So a torque that is the stiction holds, and one that is above it
-    /// moves a body whatever rounding does.
+    /// Returns the torque up to which motor and load are held at rest: their stiction plus a
+    /// margin for rounding. So a torque equal to the stiction holds, and a greater one moves a
+    /// body despite rounding.
     #[inline]
     fn held(&self) -> [f64; 2] {
         let p = &self.parameters;
@@ -122,7 +123,7 @@ impl TwoMassAxis {
         ]
     }
 
-    /// Torques on motor and load that do not depend on the state.
+    /// Returns the torques on motor and load that do not depend on the state.
     #[inline]
     fn torques(&self) -> [f64; 2] {
         let against = |body: usize, friction: f64| match self.grips[body] {
@@ -160,7 +161,7 @@ impl TwoMassAxis {
         guards
     }
 
-    /// The state with the twist counted from the flank.
+    /// Returns the state with the twist counted from the flank.
     #[inline]
     pub(super) fn untwisted(&self) -> State {
         let [motor, load, motor_speed, load_speed] = self.state;

@@ -1,12 +1,12 @@
-//! What ends a linear piece of the motion: a body comes to rest or breaks loose, a flank touches or
-//! parts.
+//! Events that end a linear piece of the motion: a body comes to rest or breaks loose, a flank
+//! touches or parts.
 
 use super::motion::{Equations, State};
 
-/// Friction of motor or load.
+/// Friction state of motor or load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Grip {
-    /// It has no dry friction.
+    /// No dry friction.
     Loose,
     /// Held at rest.
     Stuck,
@@ -14,20 +14,20 @@ pub(super) enum Grip {
     Slides(f64),
 }
 
-/// What the flanks do; the sign is that of the twist.
+/// State of the flanks; the sign is that of the twist.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Flank {
     /// Between the flanks: no torque.
     Gap,
     /// The shaft is twisted against this flank.
     Touches(f64),
-    /// It is twisted, but untwists faster than its damping lets the flank follow: no torque, since
-    /// a flank does not pull.
+    /// The shaft is twisted, but untwists faster than its damping lets the flank follow: no
+    /// torque, since a flank does not pull.
     Parted(f64),
 }
 
 impl Flank {
-    /// On which side the shaft is twisted.
+    /// Returns the side to which the shaft is twisted.
     #[inline]
     pub fn side(self) -> f64 {
         match self {
@@ -37,18 +37,18 @@ impl Flank {
     }
 }
 
-/// An end of a linear piece.
+/// Event that ends a linear piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Event {
-    /// The speed of this body comes to 0.
+    /// The speed of this body reaches 0.
     Rest(usize),
-    /// The torque on this body exceeds what holds it, with this sign.
+    /// The torque on this body exceeds the holding torque, with this sign.
     Breaks(usize, f64),
     /// The flanks change.
     Flank(Flank),
 }
 
-/// A linear function of the state that is 0 or above until its event.
+/// Linear function of the state that is not negative until its event.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Guard {
     pub event: Event,
@@ -58,21 +58,21 @@ pub(super) struct Guard {
 }
 
 impl Guard {
-    /// The part that is proportional to the state: the rate, if this is what the state gains a
-    /// second.
+    /// Returns the part proportional to the state; applied to the rates of the state, this is the
+    /// rate of the guard.
     #[inline]
     pub fn part(&self, x: &State) -> f64 {
         self.by_twist * (x[0] - x[1]) + self.by_speed[0] * x[2] + self.by_speed[1] * x[3]
     }
 
-    /// Its value.
+    /// Returns the value.
     #[inline]
     pub fn value(&self, x: &State) -> f64 {
         self.part(x) + self.rest
     }
 }
 
-/// The guards of a piece, at most two of each body and two of the flanks.
+/// Guards of a piece, at most two of each body and two of the flanks.
 #[derive(Debug)]
 pub(super) struct Guards {
     list: [Guard; 6],
@@ -110,8 +110,8 @@ impl Guards {
         self.count += 1;
     }
 
-    /// Motor (0) or load (1), held up to this torque, under a drive torque, with a shaft that
-    /// touches or not.
+    /// Adds the guards of motor (0) or load (1), held up to this torque, under a drive torque,
+    /// with a shaft that touches or not.
     #[inline]
     pub fn body(
         &mut self,
@@ -146,7 +146,7 @@ impl Guards {
         }
     }
 
-    /// The flanks of a backlash that reaches `half` to both sides.
+    /// Adds the guards of the flanks, with a backlash of `half` to both sides.
     #[inline]
     pub fn flank(&mut self, flank: Flank, half: f64, equations: &Equations) {
         let (k, c) = (equations.stiffness, equations.damping);

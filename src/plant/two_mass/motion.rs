@@ -1,18 +1,18 @@
-//! The motion between two events: linear, so that it is given without error by the exponential of
-//! its matrix, or by the Taylor series of its path where an event is looked for.
+//! Motion between two events: linear, and therefore given exactly by the matrix exponential, or by
+//! the Taylor series of its path when an event is searched.
 
 use super::TwoMassParameters;
 
-/// Terms of the Taylor series; half a radian of the fastest motion leaves 2⁻¹⁷/17!.
+/// Number of terms of the Taylor series; half a radian of the fastest motion leaves 2⁻¹⁷/17!.
 const TERMS: usize = 17;
-/// The longest time for which the series is taken, times the fastest rate.
+/// Greatest time for which the series is used, times the fastest rate.
 pub(super) const REACH: f64 = 0.5;
 
-/// Motor angle, load angle (both from wherever the shaft has no torque, in rad), motor speed, load
-/// speed.
+/// Motor angle, load angle (both from the angle at which the shaft has no torque, in rad), motor
+/// speed, load speed.
 pub(super) type State = [f64; 4];
 
-/// One state and what it gains.
+/// Returns a state plus its change.
 #[inline]
 pub(super) fn sum(x: &State, gained: &State) -> State {
     [
@@ -23,16 +23,16 @@ pub(super) fn sum(x: &State, gained: &State) -> State {
     ]
 }
 
-/// Which of the forces act, as long as no event comes.
+/// Forces that act until the next event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Regime {
-    /// The shaft has torque: a flank touches.
+    /// True if the shaft has torque: a flank touches.
     pub touches: bool,
-    /// Motor and load: held by friction.
+    /// True if friction holds motor or load.
     pub stuck: [bool; 2],
 }
 
-/// The linear equations of motion.
+/// Linear equations of motion.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Equations {
     pub inertia: [f64; 2],
@@ -57,7 +57,7 @@ impl Equations {
         }
     }
 
-    /// What the state gains a second under torques on motor and load.
+    /// Returns the rates of the state under torques on motor and load.
     #[inline]
     pub fn rates(&self, regime: Regime, x: &State, torques: [f64; 2]) -> State {
         let shaft = match regime.touches {
@@ -75,7 +75,7 @@ impl Equations {
         [x[2], x[3], gained(0), gained(1)]
     }
 
-    /// The path from `start` on.
+    /// Returns the path from `start` on.
     pub fn path(&self, regime: Regime, start: &State, torques: [f64; 2]) -> Path {
         let mut terms = [[0.0; 4]; TERMS];
         terms[0] = *start;
@@ -90,14 +90,14 @@ impl Equations {
     }
 }
 
-/// A path as its Taylor series, for times up to [`REACH`].
+/// Path as its Taylor series, for times up to [`REACH`].
 #[derive(Debug)]
 pub(super) struct Path {
     terms: [State; TERMS],
 }
 
 impl Path {
-    /// What the state has gained at a time.
+    /// Returns the change of the state at a time.
     pub fn gained(&self, time_s: f64) -> State {
         let mut sum = [0.0; 4];
         for term in self.terms[1..].iter().rev() {
@@ -108,14 +108,14 @@ impl Path {
         sum
     }
 
-    /// A linear function of the state, as the coefficients of its series.
+    /// Returns the series coefficients of a linear function of the state.
     pub fn series(&self, of: impl Fn(&State) -> f64) -> [f64; TERMS] {
         self.terms.each_ref().map(of)
     }
 }
 
-/// What the state gains in a fixed time: the exponential of the matrix, less one, for a shaft that
-/// has its torque between `state[0]` and `state[1]`.
+/// Change of the state in a fixed time: the matrix exponential minus one, for a shaft whose torque
+/// acts between `state[0]` and `state[1]`.
 ///
 /// Columns belong to twist, motor speed, load speed, torque on the motor, torque on the load.
 #[derive(Debug, Clone, Copy)]
@@ -124,7 +124,7 @@ pub(super) struct Step {
 }
 
 impl Step {
-    /// The step of `time_s` · 2^`doublings` seconds; `time_s` is within [`REACH`].
+    /// Creates the step of `time_s` · 2^`doublings` seconds; `time_s` is within [`REACH`].
     pub fn new(equations: &Equations, regime: Regime, time_s: f64, doublings: u32) -> Self {
         let column = |index: usize| {
             let mut unit = [0.0; 5];
@@ -160,7 +160,7 @@ impl Step {
         }
     }
 
-    /// What the state gains.
+    /// Returns the change of the state.
     #[inline]
     pub fn gained(&self, x: &State, torques: [f64; 2]) -> State {
         let [twist, motor, load, on_motor, on_load] = &self.columns;
@@ -176,8 +176,8 @@ impl Step {
     }
 }
 
-/// The first time up to `end_s` at which a series falls below 0. Where it is not above 0 at the
-/// start, it counts as 0 there: the event before has left it at that, but for rounding.
+/// Returns the first time up to `end_s` at which a series falls below 0. A negative value at the
+/// start counts as 0: the event before has left it there, except for rounding.
 pub(super) fn falls_below_zero(series: &[f64; TERMS], end_s: f64) -> Option<f64> {
     let mut series = *series;
     series[0] = series[0].max(0.0);
@@ -190,16 +190,17 @@ pub(super) fn falls_below_zero(series: &[f64; TERMS], end_s: f64) -> Option<f64>
     if at_end < 0.0 {
         return Some(first(end_s, |time| value(time) < 0.0));
     }
-    // It may have fallen and risen again.
+    // The function may have fallen and risen again.
     if !falls(0.0) || falls(end_s) {
         return None;
     }
     let lowest = first(end_s, |time| !falls(time));
-    // Rounding at the start is no fall.
+    // Rounding at the start is not a fall.
     (value(lowest) < -1e-12 * at_end).then(|| first(lowest, |time| value(time) < 0.0))
 }
 
-/// The first time up to `end_s` at which something holds that holds there, and once it holds stays.
+/// Returns the first time up to `end_s` at which a condition holds that holds at `end_s` and, once
+/// true, stays true.
 fn first(end_s: f64, holds: impl Fn(f64) -> bool) -> f64 {
     let (mut before, mut after) = (0.0, end_s);
     for _ in 0..60 {

@@ -1,15 +1,15 @@
-//! The numbers of a motor with an elastic load, and what is allowed of them.
+//! Parameters of a motor with an elastic load, and their allowed ranges.
 
 use crate::plant::parameters::POSITIVE;
 use crate::settings::{SettingError, within};
 use serde::{Deserialize, Serialize};
 
-/// Amplifier, motor 32, shaft, load 33 and encoder of one axis. What belongs to the load counts at
-/// the motor's shaft.
+/// Parameters of amplifier, motor 32, shaft, load 33 and encoder of one axis. Quantities of the
+/// load refer to the motor's shaft.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TwoMassParameters {
-    /// Greatest torque that the amplifier gives, in N·m: that of the greatest torque word.
+    /// Greatest torque of the amplifier, in N·m: that of the greatest torque word.
     pub max_torque_nm: f64,
     /// Inertia of the motor, in kg·m².
     pub motor_inertia_kg_m2: f64,
@@ -17,15 +17,14 @@ pub struct TwoMassParameters {
     pub load_inertia_kg_m2: f64,
     /// Stiffness of the shaft, in N·m/rad.
     pub stiffness_nm_per_rad: f64,
-    /// Encoder counts a turn of the motor: four times its lines.
+    /// Encoder counts per turn of the motor: four times its lines.
     pub counts_per_rev: f64,
-    /// Way of the load a turn of the motor: lead of the screw, with the gear before it, in mm.
+    /// Travel of the load per turn of the motor in mm: lead of the screw, with its gear.
     pub mm_per_rev: f64,
     /// Damping of the shaft, in N·m·s/rad; 0 for none.
     #[serde(default)]
     pub damping_nm_s_per_rad: f64,
-    /// Backlash: how far the shaft turns without torque, from one flank to the other, in rad; 0 for
-    /// none.
+    /// Backlash in rad: free rotation of the shaft from one flank to the other; 0 for none.
     #[serde(default)]
     pub backlash_rad: f64,
     /// Viscous friction of the motor, in N·m·s/rad; 0 for none.
@@ -40,18 +39,18 @@ pub struct TwoMassParameters {
     /// Coulomb friction of the load, in N·m; 0 for none.
     #[serde(default)]
     pub load_friction_nm: f64,
-    /// Stiction of the motor, in N·m: what has to be exceeded before it starts. Below the Coulomb
-    /// friction it counts as that.
+    /// Stiction of the motor in N·m: the torque that must be exceeded to start. Values below the
+    /// Coulomb friction count as that.
     #[serde(default)]
     pub motor_stiction_nm: f64,
-    /// Stiction of the load, in N·m, likewise.
+    /// Stiction of the load in N·m; values below its Coulomb friction count as that.
     #[serde(default)]
     pub load_stiction_nm: f64,
 }
 
 impl Default for TwoMassParameters {
-    /// A table on a screw of 10 mm with 1 µm a count: 87 Hz of the motor and the load against each
-    /// other, damped by 5 %, no friction, no backlash.
+    /// Returns a table on a screw of 10 mm with 1 µm per count: the motor and the load oscillate
+    /// against each other at 87 Hz, damped by 5 %; no friction, no backlash.
     fn default() -> Self {
         TwoMassParameters {
             max_torque_nm: 10.0,
@@ -72,7 +71,7 @@ impl Default for TwoMassParameters {
     }
 }
 
-/// Most that the plant's fastest rate times a tick may be: a piece of the motion takes half of 1.
+/// Greatest product of the plant's fastest rate and a tick: a piece of the motion takes 0.5 of it.
 const LONGEST: f64 = 1e4;
 
 impl TwoMassParameters {
@@ -80,7 +79,7 @@ impl TwoMassParameters {
     ///
     /// # Errors
     ///
-    /// [`SettingError`] names the first that is outside its range or not a number.
+    /// Returns a [`SettingError`] that names the first field outside its range or not a number.
     pub fn validate(&self) -> Result<(), SettingError> {
         let from_zero = 0.0..=*POSITIVE.end();
         let needed = [
@@ -112,18 +111,18 @@ impl TwoMassParameters {
             .try_for_each(|(field, value)| within(field, value, &from_zero))
     }
 
-    /// Encoder counts a radian.
+    /// Returns the encoder counts per radian.
     pub fn counts_per_rad(&self) -> f64 {
         self.counts_per_rev / std::f64::consts::TAU
     }
 
-    /// Encoder counts a millimetre of the load.
+    /// Returns the encoder counts per millimetre of the load.
     pub fn counts_per_mm(&self) -> f64 {
         self.counts_per_rev / self.mm_per_rev
     }
 
-    /// No faster than this does anything change without a jump of the torque, in 1/s: natural
-    /// frequency (rad/s) and the rates at which the dampings act, together.
+    /// Returns a bound of the plant's rates without jumps of the torque, in 1/s: the sum of the
+    /// natural frequency (rad/s) and the rates of the dampings.
     pub fn fastest_per_s(&self) -> f64 {
         let (motor, load) = (self.motor_inertia_kg_m2, self.load_inertia_kg_m2);
         let compliance = 1.0 / motor + 1.0 / load;
@@ -133,7 +132,7 @@ impl TwoMassParameters {
             + self.load_viscous_nm_s_per_rad / load
     }
 
-    /// The longest tick that the axis can be simulated on.
+    /// Returns the greatest tick for which the axis can be simulated, in seconds.
     pub fn longest_tick_s(&self) -> f64 {
         LONGEST / self.fastest_per_s()
     }

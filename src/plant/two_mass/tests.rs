@@ -1,4 +1,4 @@
-//! The two-mass axis against closed forms and against small steps of Runge and Kutta.
+//! Two-mass axis compared with closed forms and with small Runge-Kutta steps.
 
 mod dry;
 mod flanks;
@@ -11,7 +11,7 @@ use super::*;
 /// Ticks of 0.1 µs to 1 ms.
 const TICKS_S: [f64; 5] = [1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
 
-/// Round numbers: 120 Hz, nothing rubs.
+/// Round numbers: 120 Hz, no friction.
 const PARAMETERS: TwoMassParameters = TwoMassParameters {
     max_torque_nm: 20.0,
     motor_inertia_kg_m2: 1e-3,
@@ -113,7 +113,7 @@ fn what_is_out_of_range_is_named() {
         assert_eq!(zero.validate().is_ok(), index >= 6, "{field}");
     }
     assert!(TwoMassAxis::new(&PARAMETERS, 0.0).is_err());
-    // 757.2 rad/s: a tick is at most 10,000 rad long.
+    // 757.2 rad/s: a tick may be at most 10,000 rad long.
     let error = TwoMassAxis::new(&PARAMETERS, 14.0).expect_err("too long");
     assert_eq!(error.field, "tick_s");
     near(PARAMETERS.longest_tick_s(), 13.206, 1e-3);

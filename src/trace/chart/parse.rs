@@ -1,16 +1,15 @@
 use super::{Cell, Chart, ChartError, Problem, Row};
 
-/// Reads all charts of a note, in order. Other code blocks, and charts quoted inside them, are
-/// passed over.
+/// Parses all charts of a note, in order. Skips other code blocks, and charts quoted inside them.
 ///
 /// # Errors
-/// The first chart line that cannot be read.
+/// Returns an error for the first chart line that cannot be read.
 pub fn parse(markdown: &str) -> Result<Vec<Chart>, ChartError> {
     let mut charts = Vec::new();
     let mut lines = markdown.lines().zip(1..);
     while let Some((text, line)) = lines.next() {
         let Some((fence, info)) = fence(text) else {
-            // A chart that would be passed over.
+            // A chart that would be skipped.
             if text.trim().starts_with("```chart ") {
                 return Err(Problem::Backtick.at(line));
             }
@@ -40,7 +39,7 @@ pub fn parse(markdown: &str) -> Result<Vec<Chart>, ChartError> {
     Ok(charts)
 }
 
-/// The marks of an opening fence and what stands behind them.
+/// Returns the marks of an opening fence and the text after them.
 fn fence(text: &str) -> Option<(&str, &str)> {
     let text = text.trim();
     let mark = text
@@ -59,7 +58,7 @@ fn closes(text: &str, fence: &str) -> bool {
         && text.trim_start_matches(&fence[..1]).is_empty()
 }
 
-/// A chart whose lines are being read.
+/// Chart whose lines are being read.
 struct Draft(Chart);
 
 impl Draft {
@@ -165,7 +164,7 @@ impl Row {
     }
 }
 
-/// The cells of a word of a line: one for each of `_#.-` where there is nothing else in it.
+/// Returns the cells of a word in a line: one per character if all are of `_#.-`, else one.
 fn cells(word: &str) -> Vec<Cell> {
     let mark = |c| match c {
         '_' => Some(Cell::Low),

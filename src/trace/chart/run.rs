@@ -6,13 +6,13 @@ use crate::trace::record::{Record, near};
 use crate::trace::value::{read, show};
 use std::fmt::{self, Write};
 
-/// Why a chart does not hold.
+/// Reason why a chart fails.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ChartFailure {
     /// The chart does not fit the circuit.
     #[error(transparent)]
     Chart(#[from] ChartError),
-    /// The circuit does something else.
+    /// The circuit behaves differently.
     #[error(transparent)]
     Mismatch(#[from] Box<Mismatch>),
     /// The circuit cannot be run.
@@ -22,20 +22,20 @@ pub enum ChartFailure {
 
 crate::hdl::debug_as_display!(ChartFailure);
 
-/// The first cell, by tick, in which a circuit does not do what its chart says.
+/// First cell, by tick, in which a circuit differs from its chart.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub struct Mismatch {
-    /// The line in the note, from 1.
+    /// Line in the note, from 1.
     pub line: usize,
-    /// The tick.
+    /// Tick of the cell.
     pub tick: u64,
-    /// The signal, by its path below the circuit.
+    /// Path of the signal below the circuit.
     pub signal: String,
-    /// What the chart says.
+    /// Value in the chart.
     pub expected: String,
-    /// What the circuit does.
+    /// Value of the circuit.
     pub actual: String,
-    /// The chart of what the circuit does, ready for the note.
+    /// Chart of the actual behaviour, ready for the note.
     pub chart: String,
 }
 
@@ -59,18 +59,18 @@ impl fmt::Display for Mismatch {
 }
 
 impl Chart {
-    /// Runs the circuit from power-on on the chart's inputs and compares every expected cell.
+    /// Runs the circuit from power-on with the chart's inputs and compares every expected cell.
     ///
     /// # Errors
-    /// The chart does not fit the circuit, or the circuit does something else.
+    /// Returns an error if the chart does not fit the circuit, or the circuit behaves differently.
     pub fn run(&self, circuit: &impl Described) -> Result<(), ChartFailure> {
         self.run_on(&circuit.described()?)
     }
 
-    /// The same of a circuit whose type is forgotten.
+    /// Runs an elaborated circuit as [`run`](Self::run) does.
     ///
     /// # Errors
-    /// As [`run`](Self::run).
+    /// Returns the errors of [`run`](Self::run).
     pub fn run_on(&self, circuit: &Model) -> Result<(), ChartFailure> {
         if self.circuit != circuit.name() {
             let problem = Problem::Circuit {
@@ -116,7 +116,7 @@ impl Chart {
         ports: &[Declaration],
         inputs: &[Resolved<'_>],
     ) -> Result<Record, ChartError> {
-        // For every port its line, found once.
+        // Line of each port, found once.
         let lines: Vec<Option<&Resolved<'_>>> = ports
             .iter()
             .map(|port| inputs.iter().find(|row| std::ptr::eq(row.leaf, port)))
@@ -146,7 +146,7 @@ impl Chart {
         Ok(record)
     }
 
-    /// The chart with what the circuit does in place of what was expected.
+    /// Returns the chart with the actual values in place of the expected ones.
     fn draw(
         &self,
         inputs: &[Resolved<'_>],
@@ -186,7 +186,7 @@ impl Chart {
         for (name, cells) in lines {
             let mut line = format!("{name:names$}");
             for cell in cells {
-                // Writing to a string does not fail.
+                // Writing to a string cannot fail.
                 let _ = write!(line, "  {cell:width$}");
             }
             text += line.trim_end();
@@ -196,11 +196,11 @@ impl Chart {
     }
 }
 
-/// A line of a chart with the signal it means.
+/// Line of a chart with its signal.
 struct Resolved<'a> {
     row: &'a Row,
     leaf: &'a Declaration,
-    /// One a tick; `None` is not checked.
+    /// One value per tick; `None` is not checked.
     values: Vec<Option<u64>>,
 }
 
@@ -209,7 +209,7 @@ fn resolve<'a>(
     leaves: &'a [Declaration],
     what: &'static str,
 ) -> Result<Vec<Resolved<'a>>, ChartError> {
-    // Without the circuit's own scope.
+    // Skips the circuit's own scope.
     fn below(leaf: &Declaration) -> impl Iterator<Item = &str> {
         leaf.names().skip(leaf.scopes.len().min(1))
     }
@@ -279,7 +279,7 @@ fn no_value(row: &Row, leaf: &Declaration, cell: &str) -> ChartError {
     problem.at(row.line)
 }
 
-/// A value as a cell: levels for bits.
+/// Returns a value as a cell: levels for bits.
 fn cell(leaf: &Declaration, bits: u64) -> String {
     match (leaf.shape.width, bits) {
         (1, 0) => "_".to_owned(),
@@ -288,7 +288,7 @@ fn cell(leaf: &Declaration, bits: u64) -> String {
     }
 }
 
-/// The cells of a line: `-` where nothing is checked, `.` where a word repeats.
+/// Returns the cells of a line: `-` if nothing is checked, `.` if a word repeats.
 fn texts(leaf: &Declaration, values: impl Iterator<Item = Option<u64>>) -> Vec<String> {
     let mut before = None;
     values

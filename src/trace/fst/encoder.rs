@@ -10,22 +10,22 @@ use lz4_flex::block::{CompressTable, compress_into_with_table, get_maximum_outpu
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use std::io::{self, Seek, SeekFrom, Write};
 
-/// The kind of block that holds values.
+/// Block kind of a section of values.
 const VALUES: u8 = 8;
-/// Chains of values are packed by LZ4.
+/// Packing of value chains: LZ4.
 const LZ4: u8 = b'4';
-/// Bytes below which packing gains nothing.
+/// Length in bytes below which packing gains nothing.
 const WORTH_PACKING: usize = 32;
-/// The level of zlib for frames and times, which are full of repetitions.
+/// Level of zlib for frames and times, which have many repetitions.
 const ZLIB: u8 = 1;
 
-/// Writes sections.
+/// Writer of sections.
 pub(crate) struct Encoder<W> {
     out: W,
     clock: Clock,
     counts: Counts,
     variables: Vec<Variable>,
-    /// The values at the end of the section before, by leaf.
+    /// Values at the end of the section before, by leaf.
     values: Vec<u64>,
     sorted: Sorted,
     chain: Vec<u8>,
@@ -40,7 +40,7 @@ impl<W> std::fmt::Debug for Encoder<W> {
 }
 
 impl<W: Write + Seek> Encoder<W> {
-    /// Writes the head of the file.
+    /// Writes the header of the file.
     pub fn new(mut out: W, layout: &Layout, clock: Clock) -> io::Result<Self> {
         let mut bytes = header(clock, Counts::default());
         let (variables, scopes) = declarations(&mut bytes, layout);
@@ -62,7 +62,7 @@ impl<W: Write + Seek> Encoder<W> {
         })
     }
 
-    /// Leaves room for a number that is known later.
+    /// Reserves space for a number that is known later.
     fn place(&mut self) -> usize {
         self.bytes.extend([0; 8]);
         self.bytes.len() - 8
@@ -72,8 +72,8 @@ impl<W: Write + Seek> Encoder<W> {
         self.bytes[place..place + 8].copy_from_slice(&number.to_be_bytes());
     }
 
-    /// The values with which the section begins: those of the section before, in the first one
-    /// those of its first tick.
+    /// Writes the initial values of the section: the last ones of the section before or, in the
+    /// first section, those of its first tick.
     fn frame(&mut self) {
         let first = self.counts.sections == 0;
         let frame = &mut self.chain;
@@ -97,7 +97,8 @@ impl<W: Write + Seek> Encoder<W> {
         self.bytes.extend_from_slice(&packed);
     }
 
-    /// The values of each variable in turn, and where they begin. Returns their bytes unpacked.
+    /// Writes the value chains of all variables and their positions. Returns their unpacked size
+    /// in bytes.
     fn chains(&mut self, ticks: usize) -> u64 {
         unsigned(&mut self.bytes, self.variables.len() as u64);
         let mut last = self.bytes.len();
@@ -136,7 +137,7 @@ impl<W: Write + Seek> Encoder<W> {
         unpacked
     }
 
-    /// The table of times, each as what lies between it and the one before.
+    /// Writes the time table as differences.
     fn times(&mut self, section: &Section) {
         let edges = section.ticks.iter().flat_map(|tick| [tick.rise, tick.fall]);
         let (mut count, mut before) = (0, 0);
@@ -155,7 +156,7 @@ impl<W: Write + Seek> Encoder<W> {
 }
 
 impl<W: Write + Seek + Send + 'static> Sink for Encoder<W> {
-    // What is packed together decides how small the file is.
+    // The amount packed together determines the file size.
     const CHANGES: usize = 128 * 1024;
     const TICKS: usize = 32 * 1024;
     type Out = W;
@@ -163,7 +164,7 @@ impl<W: Write + Seek + Send + 'static> Sink for Encoder<W> {
     fn write(&mut self, section: &Section) -> io::Result<()> {
         let last_tick = section.ticks.last().map(|tick| tick.fall);
         let Some(end) = section.end.or(last_tick) else {
-            // No tick at all.
+            // No tick.
             return Ok(());
         };
         if self.counts.sections == 0 {
@@ -205,7 +206,7 @@ impl<W: Write + Seek + Send + 'static> Sink for Encoder<W> {
     }
 }
 
-/// By zlib, where that makes it shorter: readers tell by the length.
+/// Packs by zlib if that is shorter: readers tell by the length.
 fn pack(bytes: &[u8]) -> Vec<u8> {
     let packed = compress_to_vec_zlib(bytes, ZLIB);
     match packed.len() < bytes.len() {
@@ -214,7 +215,7 @@ fn pack(bytes: &[u8]) -> Vec<u8> {
     }
 }
 
-/// A chain with its length, which is 0 where it is not packed.
+/// Writes a chain with its length, which is 0 if it is not packed.
 fn put(out: &mut Vec<u8>, chain: &[u8], table: &mut CompressTable) {
     let start = out.len();
     if chain.len() >= WORTH_PACKING {
@@ -234,18 +235,18 @@ fn put(out: &mut Vec<u8>, chain: &[u8], table: &mut CompressTable) {
     out.extend_from_slice(chain);
 }
 
-/// The bits of a word moved up to the highest one.
+/// Aligns the bits of a word to the highest.
 fn left(bits: u64, width: usize) -> u64 {
     bits << (64 - width.clamp(1, 64))
 }
 
-/// High at the first of the two times of each tick, low at the second.
+/// Adds the chain of `clk`: high at the first of the two times of each tick, low at the second.
 fn clk(chain: &mut Vec<u8>, ticks: usize) {
     let high = 1 << 2 | 1 << 1;
     let low = 1 << 2;
     chain.extend([high, low].repeat(ticks));
     if let Some(first) = chain.first_mut() {
-        // It is at the first time, not one after it.
+        // The first edge is at the first time, not one after it.
         *first = 1 << 1;
     }
 }

@@ -1,16 +1,16 @@
-//! What stands at the head of the file: its header, the scopes and names, the widths.
+//! Header of the file, scopes and names, widths.
 
 use super::varint::unsigned;
 use crate::hdl::{Format, Role};
 use crate::trace::Clock;
 use crate::trace::layout::{CLK, Layout, Scope, companion};
 
-/// Kinds of block.
+/// Block kinds.
 const HEADER: u8 = 0;
 const GEOMETRY: u8 = 3;
 const HIERARCHY_LZ4: u8 = 6;
 
-/// Kinds of entry in the hierarchy.
+/// Entry kinds in the hierarchy.
 const SCOPE: u8 = 254;
 const UP: u8 = 255;
 const MODULE: u8 = 0;
@@ -23,24 +23,24 @@ const NO_DIRECTION: u8 = 0;
 const INPUT: u8 = 1;
 const OUTPUT: u8 = 2;
 
-/// The width of strings in the geometry, whose values bring their length.
+/// Width of strings in the geometry; their values carry a length.
 const VARIABLE: u64 = u32::MAX as u64;
 
-/// A variable, in the order in which they are declared.
+/// Variable, in declaration order.
 #[derive(Debug, Clone, Copy)]
 pub enum Variable {
-    /// The clock, which no walk shows.
+    /// Clock, which is in no walk.
     Clk,
-    /// A leaf.
+    /// Leaf.
     Bits { leaf: usize, width: usize },
-    /// The states of a leaf by name.
+    /// State names of a leaf.
     Names {
         leaf: usize,
         names: &'static [&'static str],
     },
 }
 
-/// What becomes known while the file is written.
+/// Numbers that become known while the file is written.
 #[derive(Debug, Default, Clone, Copy)]
 pub struct Counts {
     pub start: u64,
@@ -50,7 +50,7 @@ pub struct Counts {
     pub sections: u64,
 }
 
-/// The header.
+/// Returns the header.
 pub fn header(clock: Clock, counts: Counts) -> Vec<u8> {
     let Counts {
         start,
@@ -63,7 +63,7 @@ pub fn header(clock: Clock, counts: Counts) -> Vec<u8> {
     for number in [329, start, end] {
         out.extend(number.to_be_bytes());
     }
-    // By this number readers tell the order of the bytes in real numbers.
+    // Readers detect the byte order of real numbers by this number.
     out.extend(std::f64::consts::E.to_le_bytes());
     let memory = 0;
     for number in [memory, scopes, variables, variables, sections] {
@@ -82,7 +82,7 @@ pub fn header(clock: Clock, counts: Counts) -> Vec<u8> {
     out
 }
 
-/// Scopes, names and widths; returns the variables and the number of scopes.
+/// Writes scopes, names and widths; returns the variables and the number of scopes.
 pub fn declarations(out: &mut Vec<u8>, layout: &Layout) -> (Vec<Variable>, u64) {
     let mut hierarchy = Hierarchy::default();
     hierarchy.scope(&layout.top, layout, true);
@@ -100,7 +100,7 @@ pub fn declarations(out: &mut Vec<u8>, layout: &Layout) -> (Vec<Variable>, u64) 
     (variables, scopes)
 }
 
-/// A block: its length after its kind, the length of its contents unpacked, its contents.
+/// Writes a block: kind, length, unpacked length of its contents, contents.
 fn block(out: &mut Vec<u8>, kind: u8, unpacked: usize, count: &[u8], contents: &[u8]) {
     let length = 16 + count.len() + contents.len();
     out.push(kind);
@@ -123,7 +123,7 @@ impl Hierarchy {
         self.scopes += 1;
         self.text.extend([SCOPE, MODULE]);
         self.text.extend(scope.name.bytes());
-        // The end of the name, and no name of a component.
+        // End of the name, and an empty component name.
         self.text.extend([0, 0]);
         if outermost {
             self.variable([WIRE, NO_DIRECTION], CLK, Variable::Clk);
@@ -172,7 +172,7 @@ impl Hierarchy {
 }
 
 impl Variable {
-    /// Its characters in a frame.
+    /// Returns the number of characters in a frame.
     fn width(self) -> usize {
         match self {
             Variable::Clk => 1,

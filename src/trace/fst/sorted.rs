@@ -1,15 +1,15 @@
 use crate::trace::section::Section;
 use crate::trace::walk::Change;
 
-/// The changes of a section by leaf; those of a leaf stay in their order.
+/// Changes of a section sorted by leaf; those of a leaf keep their order.
 #[derive(Debug, Default)]
 pub struct Sorted {
-    /// Where the changes of a leaf end in `runs`.
+    /// End of each leaf's changes in `runs`.
     ends: Vec<u32>,
     runs: Vec<Value>,
 }
 
-/// A value and when it begins: the place in the table of times.
+/// Value, and its start as an index into the time table.
 #[derive(Debug, Default, Clone, Copy)]
 pub struct Value {
     pub place: u32,
@@ -17,7 +17,7 @@ pub struct Value {
 }
 
 impl Sorted {
-    /// Sorts by counting.
+    /// Sorts the changes by counting.
     pub fn sort(&mut self, section: &Section, leaves: usize) {
         let Sorted { ends, runs } = self;
         ends.clear();
@@ -27,7 +27,7 @@ impl Sorted {
         }
         let mut start = 0;
         for end in ends.iter_mut() {
-            // Until all are placed, where the next one goes.
+            // Until all are placed: position of the next one.
             start += std::mem::replace(end, start);
         }
         runs.resize(section.changes.len(), Value::default());
@@ -40,7 +40,7 @@ impl Sorted {
         }
     }
 
-    /// Those of a leaf.
+    /// Returns the changes of a leaf.
     pub fn run(&self, leaf: usize) -> &[Value] {
         let start = leaf.checked_sub(1).map_or(0, |before| self.ends[before]);
         &self.runs[start as usize..self.ends[leaf] as usize]

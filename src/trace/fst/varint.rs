@@ -1,4 +1,5 @@
-//! Numbers of seven bits a byte, the lowest first; all bytes but the last have their highest bit.
+//! Variable-length numbers: seven bits per byte, the lowest first; all bytes but the last have
+//! their highest bit set.
 
 pub fn unsigned(out: &mut Vec<u8>, mut number: u64) {
     while number > 0x7f {
@@ -8,7 +9,7 @@ pub fn unsigned(out: &mut Vec<u8>, mut number: u64) {
     out.push(number as u8);
 }
 
-/// The last byte's second highest bit is the sign.
+/// Writes a signed number; the second highest bit of the last byte is the sign.
 pub fn signed(out: &mut Vec<u8>, mut number: i64) {
     while !(-64..64).contains(&number) {
         out.push(number as u8 | 0x80);

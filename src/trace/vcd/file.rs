@@ -10,18 +10,18 @@ use crate::trace::walk::Change;
 use std::io::{self, Write};
 use vcd::IdCode;
 
-/// Bytes that are gathered before they are written.
+/// Bytes that are collected before they are written.
 const GATHERED: usize = 256 * 1024;
 
-/// The code of `clk`: variable 0.
+/// Code of `clk`: variable 0.
 pub const CLK_CODE: IdCode = IdCode::FIRST;
-/// The end of a time's line and its own.
+/// Line end after a time, and the line of `clk` high.
 const CLK_HIGH: &[u8; 4] = b"\n1!\n";
 const CLK_LOW: &[u8; 4] = b"\n0!\n";
-/// The same where it rises for the first time.
+/// Lines of the first rising edge.
 const CLK_FIRST: &[u8; 14] = b"\n$dumpvars\n1!\n";
 
-/// A value change dump as it is written.
+/// Value change dump being written.
 #[derive(Debug)]
 pub(crate) struct VcdFile<W> {
     out: W,
@@ -48,7 +48,7 @@ impl<W: Write> VcdFile<W> {
             }
         }
         let mut head = Vec::new();
-        // Writing to memory does not fail.
+        // Writing to memory cannot fail.
         let _ = header(&mut head, layout, &variables, clock);
         VcdFile {
             out,
@@ -85,7 +85,7 @@ impl<W: Write> VcdFile<W> {
     }
 }
 
-/// Tick by tick.
+/// Writes tick by tick.
 impl<W: Write> Format for VcdFile<W> {
     type Out = W;
 
@@ -102,9 +102,9 @@ impl<W: Write> Format for VcdFile<W> {
     }
 }
 
-/// On a thread of its own.
+/// Writes in a separate thread.
 impl<W: Write + Send + 'static> Sink for VcdFile<W> {
-    // Few enough to stay in the caches from one thread to the other.
+    // Small enough to stay in the caches between the threads.
     const CHANGES: usize = 16 * 1024;
     const TICKS: usize = 8 * 1024;
     type Out = W;

@@ -1,4 +1,4 @@
-//! The declarations at the head of a dump.
+//! Declarations at the head of a dump.
 
 use super::file::CLK_CODE;
 use crate::hdl::Role;
@@ -8,8 +8,8 @@ use crate::trace::layout::{CLK, Layout, Scope, companion};
 use std::io;
 use vcd::{IdCode, ReferenceIndex, VarType};
 
-/// Writes them; `variables` says for every leaf which variable it is. The names of its states are the
-/// one after it.
+/// Writes the declarations; `variables` gives the variable of each leaf. The names of its states
+/// are the variable after it.
 pub fn header(
     out: &mut Vec<u8>,
     layout: &Layout,

@@ -5,49 +5,48 @@ use crate::trace::walk::Change;
 use std::num::NonZeroU32;
 use vcd::IdCode;
 
-/// The longest line of a number: `b`, 64 digits, the end of the line with its padding.
+/// Longest line of a number: `b`, 64 digits, the line end with its padding.
 const LINE: usize = 1 + 64 + END;
-/// Room for the end of a line.
+/// Space for the end of a line.
 const END: usize = 8;
-/// Changes for which there is room at once.
+/// Number of changes for which space is reserved at once.
 const SOME: usize = 64;
-/// The room in the buffer at first, doubled where a tick needs more.
+/// Initial size of the buffer in bytes, doubled if a tick needs more.
 const ROOM: usize = 16 * 1024;
 
-/// How a leaf is written. There is one for every leaf and every change looks at one: it is kept
-/// small.
+/// Text form of a leaf. There is one per leaf and every change reads one, so it is small.
 #[derive(Debug, Clone, Copy)]
 struct Signal {
     end: End,
-    /// Where its states stand, from 1 on, if it has some.
+    /// Index of its states from 1, if it has any.
     states: Option<NonZeroU32>,
 }
 
-/// What stands behind a value on its line.
+/// Text after a value on its line.
 #[derive(Debug, Clone, Copy)]
 struct End {
-    /// For a word a space, the code, the end of the line; for a scalar the same without the space.
-    /// Zeros behind it: up to five characters hold any 32-bit index.
+    /// For a word: space, code, line end; for a scalar the same without the space. Padded with
+    /// zeros: up to five characters hold any 32-bit index.
     text: [u8; END],
-    /// How much of that there is.
+    /// Length of the text.
     len: u8,
-    /// It is a word, with a `b` before its digits.
+    /// True for a word, which has a `b` before its digits.
     word: bool,
 }
 
-/// The names of values.
+/// Names of values.
 #[derive(Debug, Clone, Copy)]
 struct States {
     names: &'static [&'static str],
     end: End,
 }
 
-/// How every leaf is written.
+/// Text forms of all leaves.
 #[derive(Debug)]
 pub struct Signals {
     signals: Vec<Signal>,
     states: Vec<States>,
-    /// The most that the lines of a change take, with padding.
+    /// Greatest length of the lines of a change, with padding.
     room: usize,
 }
 
@@ -60,14 +59,14 @@ impl Signals {
         }
     }
 
-    /// The next leaf. The names of its states are the variable after its own.
+    /// Adds the next leaf. The names of its states are the variable after its own.
     pub fn push(&mut self, variable: u32, width: usize, names: Option<&'static [&'static str]>) {
         let states = names.and_then(|names| {
             self.states.push(States {
                 names,
                 end: End::new(variable + 1, true),
             });
-            // A number has twenty digits at most.
+            // A number has at most twenty digits.
             let longest = names.iter().fold(20, |most, name| most.max(name.len()));
             self.room = self.room.max(LINE + 1 + longest + END);
             NonZeroU32::new(self.states.len() as u32)
@@ -93,7 +92,7 @@ impl End {
         }
     }
 
-    /// Puts it at a place in a line; returns where the line ends.
+    /// Writes the end at a position in a line; returns the end of the line.
     #[inline(always)]
     fn put(&self, line: &mut [u8], at: usize) -> usize {
         line[at..][..END].copy_from_slice(&self.text);
@@ -103,8 +102,8 @@ impl End {
     /// Writes the line of a value and returns its length. Leading zeros are left out: a reader
     /// extends a value that begins with 1 by zeros.
     ///
-    /// Which signals change, and how long they are, no processor foresees: more digits than there
-    /// are cost less than a branch.
+    /// Branches on changes and lengths cannot be predicted: writing more digits than needed costs
+    /// less than a branch.
     #[inline(always)]
     fn line(&self, line: &mut [u8], bits: u64) -> usize {
         let lead = usize::from(self.word);
@@ -144,10 +143,10 @@ impl States {
     }
 }
 
-/// The lines that are not written yet.
+/// Lines that are not yet written.
 #[derive(Debug)]
 pub struct Text {
-    /// More than there are, so that a line can be put in its place at its full length.
+    /// Longer than the text, so that a line can be stored at its full length.
     buffer: Vec<u8>,
     len: usize,
     times: Times,
@@ -192,7 +191,7 @@ impl Text {
         self.len += bytes.len();
     }
 
-    /// Lines of new values.
+    /// Adds the lines of new values.
     pub fn changes(&mut self, signals: &Signals, changes: &[Change]) {
         for some in changes.chunks(SOME) {
             self.room(SOME * signals.room);
@@ -209,7 +208,7 @@ impl Text {
         }
     }
 
-    /// A time, and what follows on and after its line.
+    /// Adds a time, and the text that follows on and after its line.
     #[inline(always)]
     pub fn time<const N: usize>(&mut self, time: u64, then: &[u8; N]) {
         self.room(time::ROOM);
@@ -231,8 +230,8 @@ fn put_digits(mut digits: &mut [u8], bytes: &[u8]) {
     }
 }
 
-/// The bits of a byte as text, the highest first: a copy for each, whose bit stands at the top of
-/// a byte of its own.
+/// Returns the bits of a byte as text, the highest first: a copy for each, whose bit is at the top
+/// of its own byte.
 #[inline]
 pub fn eight_digits(byte: u8) -> [u8; 8] {
     let ones = u64::from(byte).wrapping_mul(0x8040_2010_0804_0201) >> 7 & 0x0101_0101_0101_0101;
@@ -243,7 +242,7 @@ pub fn eight_digits(byte: u8) -> [u8; 8] {
 mod tests {
     use super::*;
 
-    /// However the lines lie in the buffer when it grows, and however long a name is.
+    /// Lines fit wherever they are in the buffer when it grows, and however long a name is.
     #[test]
     fn there_is_room_for_every_line() {
         let names: &[&str] = vec![&*"LONG_".repeat(50).leak()].leak();
@@ -283,7 +282,7 @@ mod tests {
         }
     }
 
-    /// Of every length, over what is left of longer lines, with codes of every length.
+    /// Values of every length, over the rest of longer lines, with codes of every length.
     #[test]
     fn values_of_every_length() {
         let variables = [1, 93, 94, 100_000, 10_000_000, u32::MAX];
@@ -306,7 +305,7 @@ mod tests {
         }
     }
 
-    /// However they lie in the buffer when it grows.
+    /// Names fit wherever they are in the buffer when it grows.
     #[test]
     fn states_without_a_name_are_numbers() {
         let mut signals = Signals::new();

@@ -1,39 +1,38 @@
 //! Times as text.
 
-/// Digits that are counted on; those before them stand as text.
+/// Number of digits that are incremented; the ones before them are text.
 const DIGITS: usize = 8;
-/// What they count to.
+/// First number beyond these digits.
 const END: u64 = 100_000_000;
-/// Room for what stands before them: `#` and the twelve other digits that a time can have.
+/// Space for the text before them: `#` and the twelve other digits that a time can have.
 const HEAD: usize = 16;
-/// The most that may follow a time.
+/// Greatest length of the text after a time.
 const THEN: usize = 16;
-/// Room for a time with what follows.
+/// Space for a time with the text after it.
 pub const ROOM: usize = HEAD + DIGITS + THEN;
 
-/// The times of a dump, counted in decimal: each is mostly as far from the last as that from the
-/// one before.
+/// Times of a dump, incremented in decimal: the step is usually that of the time before.
 #[derive(Debug, Default)]
 pub struct Times {
     last: u64,
-    /// How far the next one is from it, most likely.
+    /// Expected difference to the next time.
     step: u64,
-    /// From here on a time has more digits, or others before those that are counted; at first
+    /// First time that has more digits, or other digits before the incremented ones; at first
     /// every time.
     end: u64,
-    /// The last digits of the time, one a byte, the first in the highest.
+    /// Last digits of the time, one per byte, the first in the highest.
     low: u64,
-    /// Those of the step, each with what makes it carry into the next byte after nine.
+    /// Digits of the step, each biased so that it carries into the next byte after nine.
     plus: u64,
-    /// What stands before the digits that are counted, and zeros behind it.
+    /// Text before the incremented digits, padded with zeros.
     head: [u8; HEAD],
     head_len: usize,
-    /// How many bits the zeros take that stand before a time of less than eight digits.
+    /// Number of bits of the leading zeros of a time with less than eight digits.
     zeros: u32,
 }
 
 impl Times {
-    /// Writes a time, with what follows on and after its line; returns how long that is.
+    /// Writes a time, with the text that follows on and after its line; returns the length.
     #[inline(always)]
     pub fn put<const N: usize>(
         &mut self,
@@ -44,8 +43,7 @@ impl Times {
         const { assert!(N <= THEN) }
         if time.wrapping_sub(self.last) == self.step && time < self.end {
             self.last = time;
-            // A byte with a carry out of it holds its digit, another six more than that below
-            // an F.
+            // A byte that carries holds its digit; one that does not holds six more, below an F.
             let sum = self.low.wrapping_add(self.plus);
             self.low = (sum & 0x0f0f_0f0f_0f0f_0f0f) - (sum >> 4 & 0x0606_0606_0606_0606);
         } else {
@@ -60,12 +58,12 @@ impl Times {
         end + N
     }
 
-    /// A time that is another step ahead, or has other digits before those that are counted.
+    /// Sets a time with another step, or with other digits before the incremented ones.
     #[cold]
     #[inline(never)]
     fn anew(&mut self, time: u64) {
         let step = time.wrapping_sub(self.last);
-        // A longer one comes here every time.
+        // A longer step comes here every time.
         self.step = if step < END { step } else { 0 };
         self.plus = digits(self.step) + 0xf6f6_f6f6_f6f6_f6f6;
         self.last = time;
@@ -85,7 +83,7 @@ impl Times {
     }
 }
 
-/// The eight digits of a number below 10^8, the first in the highest byte.
+/// Returns the eight digits of a number below 10^8, the first in the highest byte.
 fn digits(number: u64) -> u64 {
     (0..DIGITS as u32).fold(0, |digits, place| {
         digits | (number / 10u64.pow(place) % 10) << (8 * place)

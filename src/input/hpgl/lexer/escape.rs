@@ -1,21 +1,21 @@
-//! Escape sequences: the plotter's own, and those of printers and of files made for them.
+//! Escape sequences of plotters, of printers, and of files made for them.
 
 use super::Lexer;
 
 impl Lexer<'_> {
-    /// Skips an escape sequence, the ESC itself already read, with what bytes it announces. Says
-    /// with what character it goes on.
+    /// Skips an escape sequence after its ESC, with the bytes it announces. Returns its first
+    /// character.
     ///
-    /// `ESC .` is the plotter's own, with numbers up to a colon. One that goes on with a mark has
-    /// numbers and small letters up to a capital one; a `W`, and an `X` of `ESC &p`, announce as
-    /// many bytes as the number before them says. `ESC %0A` leaves the language of plotters, `ESC
-    /// %0B` comes back to it.
+    /// `ESC .` belongs to plotters and has numbers up to a colon. A sequence that begins with
+    /// another mark has numbers and lower-case letters up to an upper-case one; a `W`, and an `X`
+    /// of `ESC &p`, announce the number of bytes given before them. `ESC %0A` leaves the plotter
+    /// language, `ESC %0B` returns to it.
     pub(super) fn escape(&mut self) -> char {
         let kind = self.bump().map_or(' ', char::from);
         match kind {
             '.' => self.device_control(),
             '!'..='/' => self.parametrised(kind),
-            // Reset: a printer's language is left too, where a file has no sequence of its own.
+            // Reset: also leaves a printer language, if a file has no sequence of its own.
             'E' => self.printer = false,
             _ => {}
         }
@@ -78,7 +78,8 @@ mod tests {
     use super::*;
     use crate::input::hpgl::lexer::Item;
 
-    /// The items of a text: instructions by their letters, escape sequences by their character.
+    /// Returns the items of a text: instructions by their letters, escape sequences by their
+    /// character.
     fn items(text: &[u8]) -> String {
         let mut lexer = Lexer::new("t", text, false);
         let mut shown = String::new();

@@ -17,8 +17,8 @@ fn stiction_of_the_motor_holds_and_lets_go() {
                 run(&mut axis, sign * torque, 3e-3);
                 assert_eq!(axis.state, [0.0; 4]);
             }
-            // Once it slides only Coulomb friction is left; both bodies and their shaft are those
-            // of a drive with 0.4 N·m.
+            // Once it slides only Coulomb friction is left; both bodies and their shaft move as
+            // under a torque of 0.4 N·m.
             let free = TwoMassParameters {
                 motor_stiction_nm: 0.0,
                 motor_friction_nm: 0.0,
@@ -59,7 +59,7 @@ fn stiction_of_the_load_holds_a_torque_from_outside() {
                 run(&mut axis, 0.0, 3e-3);
                 assert_eq!(sign * axis.state[3] > 0.0, starts, "{torque}");
             }
-            // The state has it: a plant that is put back goes on as it did.
+            // Friction is part of the state: a restored plant continues as before.
             let (state, before) = (axis.state(), axis.state);
             run(&mut axis, 0.0, 2e-3);
             let after = axis.state;
@@ -82,7 +82,7 @@ fn stiction_of_the_load_holds_until_the_shaft_has_wound_up() {
     let omega = (430.0f64 / 1e-3).sqrt();
     for tick_s in TICKS_S {
         for sign in [1.0, -1.0] {
-            // The motor swings against the held load, up to twice the torque.
+            // The motor oscillates against the held load, up to twice the torque.
             let mut held = axis(&parameters, tick_s);
             for tick in 1..=ticks(0.05, tick_s) {
                 held.drive(sign * 1.499);
@@ -105,7 +105,8 @@ fn stiction_of_the_load_holds_until_the_shaft_has_wound_up() {
 
 #[test]
 fn a_swing_against_dry_friction_loses_as_much_each_time_and_then_stands() {
-    // The load is held; the motor swings about it and turns at x → −(x − 2·friction/stiffness).
+    // The load is held; the motor oscillates about it and reverses at x → −(x −
+    // 2·friction/stiffness).
     let parameters = TwoMassParameters {
         motor_friction_nm: 0.43,
         load_stiction_nm: 1e6,
@@ -174,7 +175,7 @@ fn friction_takes_its_torque_times_the_way() {
     };
     for tick_s in TICKS_S {
         let mut axis = axis(&parameters, tick_s);
-        // Both go ahead all the time: the motor is not braked by the shaft as hard as that.
+        // Both move forward all the time: the shaft does not brake the motor that hard.
         let (mut done, mut turned) = (0.0, false);
         for torque in [6.0, 3.0, 5.0, 4.0] {
             let from = axis.state[0];
@@ -199,7 +200,7 @@ fn a_peak_above_stiction_is_seen_within_a_piece() {
     };
     let omega = (430.0f64 / 1e-3).sqrt();
     for tick_s in TICKS_S {
-        // The shaft's torque is above stiction for so many radians before and after its peak.
+        // The shaft's torque is above stiction for this angle before and after its peak.
         for window in [0.1, 0.01, 1e-3, -1e-3f64] {
             let rise = window.signum() * (1.0 - window.cos());
             let mut axis = axis(&parameters, tick_s);

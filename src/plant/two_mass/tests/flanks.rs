@@ -12,7 +12,7 @@ const PLAY: TwoMassParameters = TwoMassParameters {
 fn the_motor_crosses_the_gap_before_the_load_moves() {
     for tick_s in TICKS_S {
         for sign in [1.0, -1.0] {
-            // From the middle, half of it.
+            // Half of it from the middle.
             let mut axis = axis(&PLAY, tick_s);
             let touch = (2.0 * 0.5 * GAP / (2.0 / 1e-3)).sqrt();
             for tick in 1..=ticks(5e-3, tick_s) {
@@ -23,7 +23,7 @@ fn the_motor_crosses_the_gap_before_the_load_moves() {
                     near(axis.state[0], sign * 1e3 * t * t, 1e-12);
                 }
             }
-            // Backwards from the flank, all of it; friction holds the load meanwhile.
+            // All of it backwards from the flank; friction holds the load meanwhile.
             let rubbing = TwoMassParameters {
                 load_friction_nm: 3.0,
                 damping_nm_s_per_rad: 0.3,
@@ -39,7 +39,7 @@ fn the_motor_crosses_the_gap_before_the_load_moves() {
             run(&mut axis, -sign * 0.4, 0.2);
             assert_eq!(axis.state[1], 0.0);
             let way = sign * (flank - axis.state[0]);
-            // The gap, and what 0.3 to 0.4 N·m twist the shaft by on each flank.
+            // The gap, plus the twist of the shaft by 0.3 to 0.4 N·m on each flank.
             assert!(way > GAP + 2.0 * 0.29 / 430.0 && way < GAP + 2.0 * 0.5 / 430.0);
             let turned = axis.state[0];
             run(&mut axis, -sign * 6.0, 0.01);
@@ -55,7 +55,7 @@ fn momentum_is_kept_in_the_gap_and_in_a_blow() {
         axis.state = [0.0, 0.0, sign * 4.0, sign];
         let momentum = sign * (4.0 * 1e-3 + 3e-3);
         let energy = linear::energy(&axis);
-        // 3 rad/s against each other: the gap's half takes 3.3 ms; an elastic blow half a period.
+        // 3 rad/s against each other: half the gap takes 3.3 ms; an elastic impact half a period.
         let touch = 0.5 * GAP / 3.0;
         let apart = touch + std::f64::consts::PI / (430.0f64 / 1e-3 + 430.0 / 3e-3).sqrt();
         for tick in 1..=ticks(0.012, tick_s) {
@@ -69,13 +69,13 @@ fn momentum_is_kept_in_the_gap_and_in_a_blow() {
                 assert_eq!(axis.shaft_torque_nm(), 0.0);
             }
             if t >= apart {
-                // Common speed 1.75; relative speed turned round.
+                // Common speed 1.75; relative speed reversed.
                 near(motor, sign * -0.5, 1e-10);
                 near(load, sign * 2.5, 1e-10);
                 assert_eq!(axis.flank, Flank::Gap);
             }
         }
-        // And across the gap to the other flank.
+        // Across the gap to the other flank.
         let cross = GAP / 3.0;
         run(&mut axis, 0.0, apart + cross - 0.012 - 2e-4);
         assert_eq!(axis.shaft_torque_nm(), 0.0);

@@ -3,8 +3,8 @@
 use super::*;
 use std::f64::consts::TAU;
 
-/// From rest under a torque: motor angle and twist. Friction takes `beta` a second of both bodies'
-/// speeds, so that the motion of both together and the one against the other do not mix.
+/// Returns motor angle and twist, from rest under a torque, in closed form. Friction takes `beta`
+/// per second of both bodies' speeds, so that the common and the relative motion do not mix.
 fn closed_form(p: &TwoMassParameters, beta: f64, torque: f64, t: f64) -> [f64; 2] {
     let (motor, load) = (p.motor_inertia_kg_m2, p.load_inertia_kg_m2);
     let both = match beta == 0.0 {
@@ -111,7 +111,7 @@ fn a_twisted_shaft_swings_at_its_frequency() {
             if twist <= 0.0 && last > 0.0 {
                 crossings.push((f64::from(tick) + twist / (last - twist)) * 1e-6);
             }
-            // The second and the tenth swing.
+            // Second and tenth oscillation.
             match crossings.len() {
                 2 => peak[0] = peak[0].max(twist),
                 10 => peak[1] = peak[1].max(twist),
@@ -127,7 +127,7 @@ fn a_twisted_shaft_swings_at_its_frequency() {
     }
 }
 
-/// Kinetic energy and that of the shaft, in J.
+/// Returns the kinetic energy plus that of the shaft, in J.
 pub(super) fn energy(axis: &TwoMassAxis) -> f64 {
     let p = &axis.parameters;
     let [_, _, motor, load] = axis.state;

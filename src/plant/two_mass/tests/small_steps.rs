@@ -1,4 +1,4 @@
-//! All at once, against small steps of Runge and Kutta and against itself with other ticks.
+//! Everything at once, compared with small Runge-Kutta steps and with other ticks.
 
 use super::*;
 
@@ -14,7 +14,7 @@ const ALL: TwoMassParameters = TwoMassParameters {
     ..PARAMETERS
 };
 
-/// A torque for each millisecond: there and back, with pauses in which it comes to rest.
+/// Torque for each millisecond: back and forth, with pauses in which the axis comes to rest.
 fn torques() -> Vec<f64> {
     let parts = [
         (2.0, 12),
@@ -31,8 +31,8 @@ fn torques() -> Vec<f64> {
         .collect()
 }
 
-/// The equations as the note has them, in steps of Runge and Kutta. At rest or where a step turns
-/// the speed round, friction holds what it can hold.
+/// Integrates the equations of the note by Runge-Kutta steps. At rest, or when a step reverses the
+/// speed, friction holds up to its limit.
 fn small_steps(p: &TwoMassParameters, state: &mut [f64; 4], torques: [f64; 2], step: f64) {
     let shaft = |x: &[f64; 4]| {
         let (twist, half) = (x[0] - x[1], 0.5 * p.backlash_rad);
@@ -52,7 +52,7 @@ fn small_steps(p: &TwoMassParameters, state: &mut [f64; 4], torques: [f64; 2], s
     let friction = [p.motor_friction_nm, p.load_friction_nm];
     let stiction = [p.motor_stiction_nm, p.load_stiction_nm];
     let on = |x: &[f64; 4]| [torques[0] - shaft(x), torques[1] + shaft(x)];
-    // The sign of each motion, 0 where it is held.
+    // Sign of each motion, 0 if it is held.
     let at_start = on(state);
     let sign: [f64; 2] = std::array::from_fn(|body| {
         let most = friction[body].max(stiction[body]);
@@ -121,7 +121,7 @@ fn it_is_what_small_steps_come_to() {
         let mut state = [0.0; 4];
         let mut greatest = 0.0f64;
         for (ms, torque) in torques().into_iter().enumerate() {
-            // From outside in half of the time, and then the other way.
+            // External torque in half of the time, in alternating directions.
             let load = outside * [0.0, 1.0, 0.0, -1.0][ms / 10 % 4];
             axis.set_load_torque_nm(load);
             axis.drive(torque);

@@ -11,9 +11,9 @@ fn option(greatest: f64) -> impl Strategy<Value = f64> {
 
 fn plants() -> impl Strategy<Value = TwoMassParameters> {
     let masses = (-5.0..-1.0f64, -5.0..-1.0f64, 0.0..5.0f64);
-    // They meet the torques below in one value now and then. Stiction without friction is left out:
-    // with nothing to damp it a body would come back to rest where it broke loose, and stick or not
-    // by rounding.
+    // Values sometimes equal the torques below. Stiction without friction is excluded: without
+    // damping a body would come back to rest where it broke loose, and stick or not depending on
+    // rounding.
     let dry = || prop_oneof![2 => option(3.0), 1 => Just(1.0)];
     let rubs = (dry(), dry(), 0.5..3.0f64, 0.5..3.0f64);
     (
@@ -50,7 +50,7 @@ fn torques() -> impl Strategy<Value = Vec<f64>> {
 }
 
 proptest! {
-    /// Nothing gives energy but the amplifier; dry friction takes what it must.
+    /// Only the amplifier supplies energy; dry friction dissipates what it must.
     #[test]
     fn no_energy_comes_from_nowhere(
         parameters in plants(),
@@ -78,8 +78,8 @@ proptest! {
         }
     }
 
-    /// Ticks that divide a millisecond come to the same, but that a light motor bouncing between its
-    /// flanks makes much of rounding.
+    /// Ticks that divide a millisecond give the same result, except for a light motor that bounces
+    /// between its flanks, which amplifies rounding.
     #[test]
     fn any_plant_moves_the_same_with_any_tick(parameters in plants(), torques in torques()) {
         let mut coarse = axis(&parameters, 1e-3);
@@ -98,8 +98,8 @@ proptest! {
     }
 }
 
-/// A flank that touches while the torque is the stiction but for rounding: the shaft turns it away
-/// from breaking loose.
+/// A flank touches while the torque equals the stiction except for rounding: the shaft turns it
+/// away from breaking loose.
 #[test]
 fn a_torque_that_is_the_stiction_to_the_bit_is_no_start() {
     let stiff = TwoMassParameters {

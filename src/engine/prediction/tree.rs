@@ -1,37 +1,37 @@
-//! What an edge block does, with the choices that several of its registers make taken together:
-//! a register that holds its word costs nothing there.
+//! Items of an edge block, with the choices that several of its registers make merged: a register
+//! that holds its word costs nothing there.
 
 use super::graph::{From, Node};
 use crate::engine::plan::{Code, Plan};
 
-/// What an edge makes.
+/// Effect of an edge block.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Root {
     Register { register: u32, next: From },
     Write { enable: From },
 }
 
-/// A thing to do; what stands after it follows.
+/// Item; the next one follows it unless it jumps.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Item {
-    /// Goes on elsewhere where it is low.
+    /// Jumps if `on` is low.
     Choose { on: From, low: u32 },
-    /// Goes on elsewhere.
+    /// Jumps.
     Goto { to: u32 },
-    /// A register.
+    /// Updates a register.
     Register { register: u32, next: From },
-    /// A memory is written where it is high.
+    /// Writes a memory if `enable` is high.
     Write { enable: From },
-    /// There is no more.
+    /// Stop the block.
     End,
 }
 
-/// Choices one in the other.
+/// Greatest nesting depth of choices.
 const DEEP: usize = 12;
-/// Items of a block for each of its roots.
+/// Greatest number of items of a block, per root.
 const MANY: usize = 8;
 
-/// Writes the items of a block.
+/// Appends the items of a block.
 pub(super) fn tree(plan: &Plan, nodes: &[Node], roots: &[Root], items: &mut Vec<Item>) {
     let mut growing = Growing {
         plan,
@@ -49,7 +49,7 @@ struct Growing<'t> {
     nodes: &'t [Node],
     items: &'t mut Vec<Item>,
     most: usize,
-    /// The choices on the way.
+    /// Choices made on the way here.
     known: Vec<(From, bool)>,
 }
 
@@ -68,7 +68,7 @@ impl Growing<'_> {
         }
     }
 
-    /// A choice: on what, and what there is where that is high and low.
+    /// Returns a choice: its condition, and the values if it is high and low.
     fn choice(&self, from: From) -> Option<(From, From, From)> {
         let node = self.node(from).filter(|node| node.code == Code::Mux)?;
         let (mut on, mut high, mut low) = (node.a, node.b, node.c);
@@ -146,7 +146,7 @@ impl Growing<'_> {
         self.grow(low);
         self.known.pop();
         if self.items.len() == jump + 1 {
-            // Nothing is done where it is low.
+            // Nothing is done if it is low.
             self.items.pop();
             self.items[start] = Item::Choose {
                 on,

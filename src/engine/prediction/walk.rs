@@ -1,16 +1,16 @@
-//! Goes through what edge blocks do: once for the words that registers take, once for their lines.
+//! Evaluation of edge blocks: first the words that registers take, then their lines.
 
 use super::NODE;
-use super::course::of;
 use super::graph::{From, Graph, Node, has};
 use super::pair::Line;
+use super::recipe::of;
 use super::tree::Item;
 use crate::engine::flat::mask;
 use crate::engine::interpreter::read;
 use crate::engine::layout::Slot;
 use crate::engine::plan::{Code, Plan, PlannedRegister};
 
-/// What is known of a node since a walk.
+/// Cached value of a node, valid for one walk.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Known<T> {
     stamp: u64,
@@ -23,20 +23,20 @@ impl<T> Known<T> {
     }
 }
 
-/// A register that moves.
+/// Register that moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Moving {
     pub register: u32,
     pub slot: Slot,
     pub width: u8,
-    /// Its step in a tick, modulo 2^width.
+    /// Change per tick, modulo 2^width.
     pub slope: u64,
 }
 
-/// It cannot go on so, if for nothing else because of this register.
-pub(super) struct Ends(pub Option<u32>);
+/// End of an attempt; the register that stopped it, if one did.
+pub(super) struct Stop(pub Option<u32>);
 
-/// Words: nets are settled.
+/// Evaluation of words; nets are settled.
 pub(super) struct Words<'w> {
     pub plan: &'w Plan,
     pub graph: &'w Graph,
@@ -47,8 +47,8 @@ pub(super) struct Words<'w> {
 }
 
 impl Words<'_> {
-    /// Notes what moves at the edge of a block.
-    pub fn edge(&mut self, edge: usize, moving: &mut Vec<Moving>) -> Result<(), Ends> {
+    /// Collects the registers that an edge block moves.
+    pub fn edge(&mut self, edge: usize, moving: &mut Vec<Moving>) -> Result<(), Stop> {
         let graph = self.graph;
         let mut place = graph.starts[edge] as usize;
         loop {
@@ -69,7 +69,7 @@ impl Words<'_> {
                     let word = self.word(next);
                     if word != now {
                         if self.ends(register, next) {
-                            return Err(Ends(Some(register)));
+                            return Err(Stop(Some(register)));
                         }
                         let slope = word.wrapping_sub(now) & mask(width);
                         moving.push(Moving {
@@ -82,7 +82,7 @@ impl Words<'_> {
                 }
                 Item::Write { enable } => {
                     if self.word(enable) != 0 {
-                        return Err(Ends(None));
+                        return Err(Stop(None));
                     }
                 }
                 Item::End => return Ok(()),
@@ -91,10 +91,10 @@ impl Words<'_> {
         }
     }
 
-    /// Whether it ends any line that this register moves.
+    /// True if a move of this register always ends the prediction.
     pub fn ends(&self, register: u32, next: From) -> bool {
-        // A bit that turns over is hardly ever on a line that anything follows, and what is loaded
-        // stays.
+        // A bit that toggles is rarely on a line that anything follows, and a loaded word stays
+        // constant.
         let is_loaded = matches!(next, From::Number(_) | From::Port(_));
         let register = register as usize;
         self.plan.registers[register].width == 1 || is_loaded || self.graph.held[register]
@@ -144,27 +144,27 @@ impl Words<'_> {
     }
 }
 
-/// Lines: nets are what their nodes make where something moves them.
+/// Evaluation of lines; nets that move are computed from their nodes.
 pub(super) struct Pairs<'w> {
     pub plan: &'w Plan,
     pub graph: &'w Graph,
     pub slab: &'w [u64],
     pub known: &'w mut [Known<(Line, u64)>],
     pub stamp: u64,
-    /// By slot.
+    /// Slopes by slot.
     pub slopes: &'w [u64],
-    /// What moves: see [`Graph::touches`].
+    /// Nets and blocks that move: see [`Graph::touches`].
     pub touched: &'w [u64],
     pub work: &'w mut u64,
-    /// For how many ticks all lines asked for since it was set are what they were said to be.
+    /// Number of ticks in which all lines evaluated since it was set are exact.
     pub until: u64,
-    /// Keeps lines of nodes that one alone takes too.
+    /// True if lines of nodes with a single reader are cached too.
     pub all: bool,
 }
 
 impl Pairs<'_> {
-    /// Follows the registers of a block for as long as they stay on their lines.
-    pub fn edge(&mut self, edge: usize) -> Result<(), Ends> {
+    /// Follows the registers of a block while they stay on their lines.
+    pub fn edge(&mut self, edge: usize) -> Result<(), Stop> {
         let graph = self.graph;
         let mut place = graph.starts[edge] as usize;
         loop {
@@ -182,39 +182,39 @@ impl Pairs<'_> {
                 Item::Register { register, next } => {
                     let slot = self.plan.registers[register as usize].slot;
                     if self.line(next).slope != self.slopes[slot as usize] || self.until <= 1 {
-                        return Err(Ends(Some(register)));
+                        return Err(Stop(Some(register)));
                     }
                 }
-                // It may be high in a block that has nothing to do: the word is written already.
+                // The enable may be high in a block that is idle: the word is written already.
                 Item::Write { enable } => {
                     if self.holds(enable) {
-                        return Err(Ends(None));
+                        return Err(Stop(None));
                     }
                 }
                 Item::End => return Ok(()),
             }
             if self.until <= 1 {
-                return Err(Ends(None));
+                return Err(Stop(None));
             }
             place += 1;
         }
     }
 
-    /// Follows a net for as long as it stays as it is.
-    pub fn net(&mut self, net: u32) -> Result<(), Ends> {
+    /// Follows a net while it is constant.
+    pub fn net(&mut self, net: u32) -> Result<(), Stop> {
         let line = self.line(self.graph.nets[net as usize].made);
         match line.is_still() && self.until > 1 {
             true => Ok(()),
-            false => Err(Ends(None)),
+            false => Err(Stop(None)),
         }
     }
 
-    /// Whether something that moves drives a net.
+    /// True if something that moves drives a net.
     pub fn touches(&self, net: u32) -> bool {
         has(self.touched, net as usize)
     }
 
-    /// What stands in a slot.
+    /// Returns the line of a slot.
     pub fn at(&self, from: From, slot: Slot) -> Line {
         Line {
             value: self.slab[slot as usize],
@@ -225,14 +225,14 @@ impl Pairs<'_> {
         }
     }
 
-    /// A line, and for how many ticks it is one.
+    /// Returns a line, and the number of ticks in which it is exact.
     pub fn ended(&mut self, from: From) -> (Line, u64) {
         let before = std::mem::replace(&mut self.until, u64::MAX);
         let line = self.line(from);
         (line, std::mem::replace(&mut self.until, before))
     }
 
-    /// Whether a condition is high, and for as long as it is.
+    /// Returns a condition, and limits the horizon to the ticks in which it is constant.
     fn holds(&mut self, on: From) -> bool {
         let line = self.line(on);
         if !line.is_still() {
@@ -328,14 +328,14 @@ impl Pairs<'_> {
         }
     }
 
-    /// And, of which zero is the end, or or, of which all bits are.
+    /// Returns an `and`, which zero decides, or an `or`, which all ones decide.
     fn both(&mut self, a: From, b: From, end: u64, width: u8) -> Line {
         let end = Line::still(end);
         let before = std::mem::replace(&mut self.until, u64::MAX);
         let a = self.line(a);
         let first = std::mem::replace(&mut self.until, u64::MAX);
         if a == end && first == u64::MAX {
-            // It is so for good, whatever the other one is.
+            // Decided for good, whatever the other one is.
             self.until = before;
             return a;
         }

@@ -1,16 +1,16 @@
-//! Writes down what a try looked at: see [`Course`].
+//! Recording of an attempt as a [`Recipe`].
 
-use super::course::{Course, Sum};
 use super::graph::{From, Node, bits};
 use super::notes::{Notes, Traced, What, number};
 use super::pair::Line;
+use super::recipe::{Recipe, Sum};
 use super::tree::Item;
 use super::walk::Pairs;
 use crate::engine::flat::mask;
 use crate::engine::plan::Code;
 use rustc_hash::FxHashMap;
 
-/// Goes through nodes as [`Pairs`] does.
+/// Evaluates nodes as [`Pairs`] does, and records them.
 pub(super) struct Recorder<'r, 'w> {
     pairs: &'r mut Pairs<'w>,
     notes: Notes<'r>,
@@ -18,26 +18,30 @@ pub(super) struct Recorder<'r, 'w> {
 }
 
 impl<'r, 'w> Recorder<'r, 'w> {
-    pub fn new(pairs: &'r mut Pairs<'w>, loose: &'r [bool]) -> Self {
+    pub fn new(pairs: &'r mut Pairs<'w>, reloaded: &'r [bool]) -> Self {
         Recorder {
-            notes: Notes::new(pairs.slab, loose),
+            notes: Notes::new(pairs.slab, reloaded),
             pairs,
             known: FxHashMap::default(),
         }
     }
 
-    /// What these edge blocks and watched nets look at; none if that cannot be said.
-    pub fn record(mut self, edges: &[u64], sights: impl Iterator<Item = u32>) -> Option<Course> {
+    /// Records these edge blocks and watched nets; `None` if that is not possible.
+    pub fn record(
+        mut self,
+        edges: &[u64],
+        watched_nets: impl Iterator<Item = u32>,
+    ) -> Option<Recipe> {
         for edge in bits(edges) {
             self.edge(edge)?;
         }
-        for net in sights {
+        for net in watched_nets {
             let made = self.pairs.graph.nets[net as usize].made;
             self.trace(made)?.line.is_still().then_some(())?;
         }
-        let mut course = self.notes.course();
-        course.edges = edges.to_vec();
-        Some(course)
+        let mut recipe = self.notes.recipe();
+        recipe.edges = edges.to_vec();
+        Some(recipe)
     }
 
     fn edge(&mut self, edge: usize) -> Option<()> {
@@ -67,7 +71,7 @@ impl<'r, 'w> Recorder<'r, 'w> {
         }
     }
 
-    /// A register goes on along its line.
+    /// Records that a register continues along its line.
     fn register(&mut self, register: u32, next: From) -> Option<()> {
         let planned = self.pairs.plan.registers[register as usize];
         let (slot, width) = (planned.slot, planned.width);
@@ -127,7 +131,7 @@ impl<'r, 'w> Recorder<'r, 'w> {
     fn node(&mut self, number: u32) -> Option<Traced> {
         let node = self.pairs.graph.nodes[number as usize];
         let traced = self.compute(&node)?;
-        // A bit is more often asked for than it changes.
+        // A bit is requested more often than it changes.
         let is_word = matches!(traced.what, What::Word(_));
         match node.width == 1 && is_word && traced.line.is_still() {
             true => self.notes.pin(traced),
@@ -227,7 +231,7 @@ impl<'r, 'w> Recorder<'r, 'w> {
         }
     }
 
-    /// The word of a memory, of which the address stays.
+    /// Records a read of a memory whose address is constant.
     fn read(&mut self, node: &Node, address: Traced) -> Option<Traced> {
         let address = self.notes.pin(address)?.line.value;
         let memory = &self.pairs.plan.memories[node.memory as usize];
@@ -245,7 +249,7 @@ impl<'r, 'w> Recorder<'r, 'w> {
         Some(Traced { line, what })
     }
 
-    /// And or or, of which one operand may say all.
+    /// Records an `and` or `or`, for which one operand may decide.
     fn both(&mut self, node: &Node, end: u64) -> Option<Traced> {
         let [one, other] = [node.a, node.b].map(|from| self.pairs.ended(from));
         let ends = |line: Line| line == Line::still(end);

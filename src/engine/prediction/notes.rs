@@ -1,14 +1,14 @@
-//! What is noted of a course while it is written down.
+//! State of a recipe while it is recorded.
 
-use super::course::{Bound, Course, Making, Sum, Word};
 use super::pair::{Line, faster};
+use super::recipe::{Bound, Recipe, Step, Sum, Word};
 use crate::engine::flat::mask;
 use crate::engine::layout::Slot;
 use crate::engine::plan::Code;
 use crate::engine::value::signed;
 use rustc_hash::FxHashMap;
 
-/// A node as a course has it.
+/// Node in a recipe.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Traced {
     pub line: Line,
@@ -17,31 +17,31 @@ pub(super) struct Traced {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum What {
-    /// The same as long as the guards hold.
+    /// Constant as long as the guards hold.
     Number,
-    /// It stands in the slab, and nothing asked for its value yet.
+    /// Word of the slab whose value nothing has requested yet.
     Slot(Slot),
     Word(Word),
 }
-/// A course under way.
+/// Recipe under construction.
 pub(super) struct Notes<'r> {
     slab: &'r [u64],
-    /// Slots of which the words are taken anew each time, rather than guarded.
-    loose: &'r [bool],
-    course: Course,
+    /// Slots whose words are loaded again each time instead of guarded.
+    reloaded: &'r [bool],
+    recipe: Recipe,
     guarded: FxHashMap<Slot, ()>,
     loaded: FxHashMap<Slot, Word>,
     numbers: FxHashMap<u64, Word>,
-    /// Words that are another one plus a number, in so many bits.
+    /// Words that are another word plus a number, with the width of the sum.
     pub sums: FxHashMap<Word, (Sum, u8)>,
 }
 
 impl<'r> Notes<'r> {
-    pub fn new(slab: &'r [u64], loose: &'r [bool]) -> Self {
+    pub fn new(slab: &'r [u64], reloaded: &'r [bool]) -> Self {
         Notes {
             slab,
-            loose,
-            course: Course::default(),
+            reloaded,
+            recipe: Recipe::default(),
             guarded: FxHashMap::default(),
             loaded: FxHashMap::default(),
             numbers: FxHashMap::default(),
@@ -49,11 +49,11 @@ impl<'r> Notes<'r> {
         }
     }
 
-    /// The course, without what no bound asks for.
-    pub fn course(mut self) -> Course {
-        let course = &mut self.course;
-        let mut asked = vec![false; course.words.len()];
-        for bound in &course.bounds {
+    /// Returns the recipe without words that no bound needs.
+    pub fn recipe(mut self) -> Recipe {
+        let recipe = &mut self.recipe;
+        let mut asked = vec![false; recipe.words.len()];
+        for bound in &recipe.bounds {
             match bound {
                 Bound::Within { sum, .. } | Bound::Apart { sum, .. } => {
                     asked[sum.word as usize] = true;
@@ -63,15 +63,15 @@ impl<'r> Notes<'r> {
                 }
             }
         }
-        for making in course.makings.iter().rev() {
-            if asked[making.to as usize] {
-                asked[making.a as usize] = true;
-                asked[making.b as usize] = true;
+        for step in recipe.steps.iter().rev() {
+            if asked[step.to as usize] {
+                asked[step.a as usize] = true;
+                asked[step.b as usize] = true;
             }
         }
-        course.makings.retain(|making| asked[making.to as usize]);
-        course.loads.retain(|(word, _)| asked[*word as usize]);
-        self.course
+        recipe.steps.retain(|step| asked[step.to as usize]);
+        recipe.loads.retain(|(word, _)| asked[*word as usize]);
+        self.recipe
     }
 
     pub fn not(&mut self, a: Traced, width: u8) -> Traced {
@@ -120,7 +120,7 @@ impl<'r> Notes<'r> {
         Some(self.result(line, Code::And, bits, a, b))
     }
 
-    /// The upper bits, from a bit on that there is.
+    /// Upper bits, from bit `by` on, which must exist.
     pub fn high(&mut self, a: Traced, by: u8, from: u8) -> Traced {
         let rest = (1 << by) - 1;
         let line = a.line.high(by, from, &mut 0);
@@ -182,7 +182,7 @@ impl<'r> Notes<'r> {
         Some(is)
     }
 
-    /// Order; `lift` is the sign where that counts.
+    /// Order; `lift` is the sign bit for a signed comparison, else 0.
     pub fn below(&mut self, a: Traced, b: Traced, width: u8, lift: u64) -> Option<Traced> {
         let all = mask(width);
         let value = |traced: Traced| (traced.line.value ^ lift) & all;
@@ -240,7 +240,7 @@ impl<'r> Notes<'r> {
         Some(high)
     }
 
-    /// Only where it is what it is now.
+    /// Guards the current value, and returns it as a constant.
     pub fn pin(&mut self, traced: Traced) -> Option<Traced> {
         let value = traced.line.value;
         match traced.what {
@@ -252,12 +252,12 @@ impl<'r> Notes<'r> {
         Some(number(value))
     }
 
-    /// Its value is asked for.
+    /// Requests the value.
     pub fn take(&mut self, traced: Traced) -> Traced {
         let What::Slot(slot) = traced.what else {
             return traced;
         };
-        if self.loose[slot as usize] {
+        if self.reloaded[slot as usize] {
             let what = What::Word(self.load(slot));
             return Traced { what, ..traced };
         }
@@ -265,7 +265,7 @@ impl<'r> Notes<'r> {
         number(traced.line.value)
     }
 
-    /// Of two words one that stays at least, and what it is where the other one moves.
+    /// Of two words, pins one that does not move, unless both do not.
     pub fn one_number(&mut self, a: Traced, b: Traced) -> Option<(Traced, Traced)> {
         match (a.line.is_still(), b.line.is_still()) {
             (true, true) => Some((a, b)),
@@ -278,13 +278,13 @@ impl<'r> Notes<'r> {
     pub fn guard(&mut self, slot: Slot) {
         if self.guarded.insert(slot, ()).is_none() {
             let word = self.slab[slot as usize];
-            self.course.guards.push((slot, word));
+            self.recipe.guards.push((slot, word));
         }
     }
 
     fn bound(&mut self, bound: Bound) {
-        if !self.course.bounds.contains(&bound) {
-            self.course.bounds.push(bound);
+        if !self.recipe.bounds.contains(&bound) {
+            self.recipe.bounds.push(bound);
         }
     }
 
@@ -308,8 +308,8 @@ impl<'r> Notes<'r> {
     }
 
     fn fresh(&mut self, value: u64) -> Word {
-        self.course.words.push(value);
-        self.course.words.len() as Word - 1
+        self.recipe.words.push(value);
+        self.recipe.words.len() as Word - 1
     }
 
     pub fn load(&mut self, slot: Slot) -> Word {
@@ -318,11 +318,11 @@ impl<'r> Notes<'r> {
         }
         let word = self.fresh(0);
         self.loaded.insert(slot, word);
-        self.course.loads.push((word, slot));
+        self.recipe.loads.push((word, slot));
         word
     }
 
-    /// Where it stands; what is in the slab is taken.
+    /// Returns the index of the word; loads it from the slab if necessary.
     pub fn word(&mut self, traced: Traced) -> Word {
         let value = traced.line.value;
         match self.take(traced).what {
@@ -338,7 +338,7 @@ impl<'r> Notes<'r> {
         }
     }
 
-    /// The word or what it is made of by a sum, if no more than these bits are asked for.
+    /// Returns the word, or the sum that computes it if no more than `bits` are read.
     fn sum(&mut self, traced: Traced, bits: u64) -> Sum {
         let word = self.word(traced);
         match self.sums.get(&word) {
@@ -365,7 +365,7 @@ impl<'r> Notes<'r> {
     pub fn make(&mut self, code: Code, bits: [u8; 3], a: Word, b: Word) -> Word {
         let to = self.fresh(0);
         let [width, from, by] = bits;
-        self.course.makings.push(Making {
+        self.recipe.steps.push(Step {
             code,
             width,
             from,
@@ -377,7 +377,7 @@ impl<'r> Notes<'r> {
         to
     }
 
-    /// A number where both are, else a step.
+    /// Returns a constant if both operands are, else adds an operation.
     pub fn result(
         &mut self,
         line: Line,

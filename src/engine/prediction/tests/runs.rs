@@ -1,6 +1,6 @@
-//! Runs over lines against the same ticks one by one.
+//! Jumps compared with single ticks.
 
-use super::super::Lines;
+use super::super::Prediction;
 use super::held;
 use crate::engine::flat::{Flat, Id, Instance, Memory, Node, Op, Place, Port, Register, mask};
 use crate::engine::interpreter::{self, Counts};
@@ -26,7 +26,7 @@ impl Run<'_> {
         interpreter::edge(self.plan, &mut self.slab, &mut self.counts);
     }
 
-    /// Registers and memories, shift registers as they are read.
+    /// Returns registers and memories; shift registers as they are read.
     fn state(&self) -> Vec<u64> {
         let registers = self.plan.registers.iter();
         let registers = registers.map(|register| self.slab[register.slot as usize]);
@@ -36,7 +36,7 @@ impl Run<'_> {
         registers.chain(words).collect()
     }
 
-    /// All leaves and properties that the slab shows.
+    /// Returns all leaves and properties that the slab has.
     fn leaves(&self) -> Vec<u64> {
         let layout = &self.plan.layout;
         let spots = layout.leaves.iter().chain(&layout.properties);
@@ -57,13 +57,13 @@ impl Run<'_> {
         watched.map(|one| self.slab[one.slot as usize]).collect()
     }
 
-    /// What is marked as changed.
+    /// Returns the change marks.
     fn changed(&self) -> Vec<u64> {
         let layout = &self.plan.layout;
         self.slab[layout.changed as usize..][..layout.changed_words as usize].to_vec()
     }
 
-    /// As compiled code leaves it: hot blocks have no bits.
+    /// Returns the slab as compiled code leaves it: hot blocks have no bits.
     fn cooled(&self, hot: &[bool]) -> Vec<u64> {
         let mut slab = self.slab.clone();
         for (place, _) in hot.iter().enumerate().filter(|(_, hot)| **hot) {
@@ -74,16 +74,16 @@ impl Run<'_> {
     }
 }
 
-/// How many ticks were gone over, of how many.
+/// Returns the number of ticks jumped over, and of all ticks.
 fn run(case: &Case, short: &[u64], every: u64) -> Result<[u64; 2], TestCaseError> {
     let flat = passes::equal(&case.flat);
     let plan = Plan::of(&flat, &case.wanted);
     let hot: Vec<bool> = (0..plan.blocks.len())
         .map(|block| case.hot[block % case.hot.len()])
         .collect();
-    let mut lines = Lines::new(&plan, &held(&plan));
-    // Courses are worth writing down at once here.
-    lines.price = 0;
+    let mut prediction = Prediction::new(&plan, &held(&plan));
+    // Recipes are recorded at once here.
+    prediction.interval = 0;
     let start = || Run {
         plan: &plan,
         slab: plan.layout.power_on(),
@@ -106,7 +106,7 @@ fn run(case: &Case, short: &[u64], every: u64) -> Result<[u64; 2], TestCaseError
             prop_assert_eq!(plain.state(), over.state());
             prop_assert_eq!(plain.leaves(), over.leaves());
             let horizon = match all % every {
-                0 => lines.horizon(&plan, &hot, &over.cooled(&hot), left),
+                0 => prediction.horizon(&plan, &hot, &over.cooled(&hot), left),
                 _ => 0,
             };
             prop_assert!(horizon <= left);
@@ -129,7 +129,7 @@ fn run(case: &Case, short: &[u64], every: u64) -> Result<[u64; 2], TestCaseError
                 }
                 plain.edge();
             }
-            lines.jump(&plan, &mut over.slab, ticks);
+            prediction.jump(&plan, &mut over.slab, ticks);
             prop_assert_eq!(
                 plain.state(),
                 over.state(),
@@ -141,7 +141,7 @@ fn run(case: &Case, short: &[u64], every: u64) -> Result<[u64; 2], TestCaseError
             plain.settle();
             over.settle();
             prop_assert_eq!(plain.leaves(), over.leaves());
-            // Registers that were left as they are are not told.
+            // Registers that did not change are not marked.
             let told = changed
                 .iter()
                 .zip(plain.changed())
@@ -154,11 +154,12 @@ fn run(case: &Case, short: &[u64], every: u64) -> Result<[u64; 2], TestCaseError
     Ok([gone, all])
 }
 
-/// A node of a circuit that counts: what it is, and of which nodes, modulo what there is.
+/// Seed of a node of a counting circuit: kind, operands modulo the number of nodes, constant,
+/// width.
 type Seed = (u8, [u16; 3], u64, u32);
 
-/// Counters, what is made of them, and registers and memories that take that: much of it moves in
-/// straight lines for some ticks.
+/// Circuits with counters, functions of them, and registers and memories that take those: much of
+/// it changes linearly for some ticks.
 fn counting() -> impl Strategy<Value = Case> {
     let step = prop_oneof![4 => Just(1u64), 4 => Just(u64::MAX), 2 => 0..6u64, 1 => any::<u64>()];
     let small = prop_oneof![0..40u64, any::<u64>()];
@@ -214,7 +215,7 @@ fn count(registers: &[Counting], seeds: &[Seed], memories: &[[u16; 4]], leaves: 
         });
         flat.nodes.len() as Id - 1
     }
-    /// Any node, in so many bits.
+    /// Returns any node, converted to `width` bits.
     fn wide(flat: &mut Flat, pick: u16, width: u8, instance: u32) -> Id {
         let id = u32::from(pick) % flat.nodes.len() as u32;
         let own = flat.node(id).width;
@@ -230,7 +231,7 @@ fn count(registers: &[Counting], seeds: &[Seed], memories: &[[u16; 4]], leaves: 
             _ => node(flat, Op::Extend(id), width, instance),
         }
     }
-    /// A node of one bit, if there is one behind this one.
+    /// Returns a node of one bit at or after this one, if there is one.
     fn bit(flat: &mut Flat, pick: u16, instance: u32) -> Id {
         let start = pick as usize % flat.nodes.len();
         let found = (start..flat.nodes.len()).find(|&id| flat.nodes[id].width == 1);
@@ -255,7 +256,7 @@ fn count(registers: &[Counting], seeds: &[Seed], memories: &[[u16; 4]], leaves: 
     }
     for &(kind, [first, second, third], bits, instance) in seeds {
         let flat = &mut flat;
-        // Mostly as wide as a register, and together with a number.
+        // Usually as wide as a register, and combined with a constant.
         let width = registers[second as usize % registers.len()].0;
         let a = wide(flat, first, width, instance);
         let b = match second % 3 {
@@ -346,26 +347,26 @@ fn count(registers: &[Counting], seeds: &[Seed], memories: &[[u16; 4]], leaves: 
     flat
 }
 
-/// A block that writes a word that is there already has nothing to do, until another block moves
-/// where it writes, or what.
+/// A block that writes an unchanged word is idle, until another block changes its address or its
+/// word.
 #[test]
 fn a_write_that_moves_in_a_block_that_sleeps() {
     for (moves_address, ram) in [(true, true), (false, true), (false, false)] {
-        let mut making = super::Making::new();
-        making.0.inputs = vec![1, 1];
-        making.0.instances.push(making.0.instances[0].clone());
-        let counts = making.node(Op::Input(0), 1);
-        let enable = making.node(Op::Input(1), 1);
-        let count = making.register(3, 0);
-        let one = making.constant(1, 3);
-        let sum = making.node(Op::Add(count, one), 3);
-        let next = making.node(Op::Mux(counts, sum, count), 3);
-        making.next(count, next);
+        let mut builder = super::Builder::new();
+        builder.0.inputs = vec![1, 1];
+        builder.0.instances.push(builder.0.instances[0].clone());
+        let counts = builder.node(Op::Input(0), 1);
+        let enable = builder.node(Op::Input(1), 1);
+        let count = builder.register(3, 0);
+        let one = builder.constant(1, 3);
+        let sum = builder.node(Op::Add(count, one), 3);
+        let next = builder.node(Op::Mux(counts, sum, count), 3);
+        builder.next(count, next);
         let (address, data) = match moves_address {
             true => (count, one),
             false => (one, count),
         };
-        let mut flat = making.0;
+        let mut flat = builder.0;
         flat.memories.push(Memory {
             width: 3,
             contents: vec![0; 5],
@@ -390,12 +391,12 @@ fn a_write_that_moves_in_a_block_that_sleeps() {
             hot: vec![false],
         };
         let [gone, all] = run(&case, &[u64::MAX], 1).unwrap();
-        // Idle until it counts; a shift register goes on shifting.
+        // Idle while it does not count; a shift register keeps shifting.
         assert!(all == 13 && (gone >= 6 || !ram), "{gone} of {all}");
     }
 }
 
-/// Jumps as long as they may be, or shorter.
+/// Jumps of the greatest length, or shorter.
 fn short() -> impl Strategy<Value = Vec<u64>> {
     prop_oneof![
         Just(vec![u64::MAX]),

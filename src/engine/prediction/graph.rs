@@ -1,33 +1,33 @@
-//! The nodes of a plan by whom they are made of, so that only what matters is looked at.
+//! Dependency graph of a plan, so that only nodes that matter are examined.
 
 use super::tree::{Item, Root, tree};
 use crate::engine::layout::Slot;
 use crate::engine::plan::{Block, Code, Plan, Step};
 use rustc_hash::FxHashMap;
 
-/// What a node is made of.
+/// Source of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum From {
-    /// A register.
+    /// Register.
     Register(Slot),
-    /// A port in.
+    /// Input port.
     Port(Slot),
-    /// A number.
+    /// Constant.
     Number(Slot),
-    /// A net: its number.
+    /// Net: its index.
     Net(u32),
-    /// A node.
+    /// Node: its index.
     Node(u32),
 }
 
-/// A node.
+/// Node of the graph.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Node {
     pub code: Code,
     pub width: u8,
     pub from: u8,
     pub by: u8,
-    /// Whether several take it.
+    /// True if several nodes read it.
     pub shared: bool,
     pub a: From,
     pub b: From,
@@ -35,7 +35,7 @@ pub(super) struct Node {
     pub memory: u32,
 }
 
-/// A net.
+/// Net of the plan.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Net {
     pub slot: Slot,
@@ -46,30 +46,30 @@ pub(super) struct Net {
 pub(super) struct Graph {
     pub nodes: Vec<Node>,
     pub nets: Vec<Net>,
-    /// What each edge block does: its first item.
+    /// First item of each edge block.
     pub starts: Vec<u32>,
     pub items: Vec<Item>,
-    /// By edge block: itself, and those of which it takes registers.
+    /// By edge block: itself, and the blocks whose registers it reads.
     pub suppliers: Vec<Vec<u64>>,
-    /// Nets that are to stay as they are.
-    pub sights: Vec<u32>,
-    /// Of each register so many words: a bit for each net that it moves, from `edge_word` on for
-    /// each edge block, from `sight_word` on for each of the nets in `sights`.
+    /// Nets that must not change.
+    pub watched_nets: Vec<u32>,
+    /// Per register `stride` words: a bit for each net that it moves, from `edge_word` on for each
+    /// edge block, from `watched_word` on for each net in `watched_nets`.
     pub touches: Vec<u64>,
     pub stride: usize,
     pub edge_word: usize,
-    pub sight_word: usize,
-    /// By register: whether it is to stay as it is.
+    pub watched_word: usize,
+    /// By register: true if it must not change.
     pub held: Vec<bool>,
-    /// By register: what it takes at an edge.
+    /// By register: source of its next value.
     pub nexts: Vec<From>,
-    /// By register: whether that depends on no other register, nor on a net.
+    /// By register: true if its next value depends on no other register and on no net.
     pub alone: Vec<bool>,
     /// One above the last slot of a register.
     pub slots: usize,
 }
 
-/// Registers, a bit each.
+/// Set of registers, one bit each.
 type Set = Vec<u64>;
 
 pub(super) fn has(set: &[u64], bit: usize) -> bool {
@@ -81,7 +81,7 @@ pub(super) fn insert(set: &mut [u64], bit: usize) {
     set[bit / 64] |= 1 << (bit % 64);
 }
 
-/// The bits that are set.
+/// Returns the indices of the set bits.
 pub(super) fn bits(set: &[u64]) -> impl Iterator<Item = usize> + '_ {
     set.iter().enumerate().flat_map(|(word, &bits)| {
         let mut bits = bits;
@@ -101,68 +101,67 @@ pub(super) fn unite(set: &mut [u64], other: &[u64]) {
 
 impl Graph {
     pub fn new(plan: &Plan, held: &[bool]) -> Graph {
-        let mut making = Making::new(plan);
+        let mut builder = Builder::new(plan);
         let mut trees = Vec::new();
         let mut edges = Vec::new();
         for (place, block) in plan.blocks.iter().enumerate() {
-            let known = making.block(block);
+            let known = builder.block(block);
             if place < plan.settling {
                 for &(from, to) in &block.outputs {
-                    making.net(known[&from], to);
+                    builder.net(known[&from], to);
                 }
                 continue;
             }
             let mut roots = Vec::new();
-            let mut set = vec![0; making.words];
+            let mut set = vec![0; builder.words];
             for &(number, slot) in &block.registers {
                 let register = plan.registers[number as usize];
-                let next = making.at(slot, &known);
-                let next = making.fit(next, register.width);
-                making.graph.nexts[number as usize] = next;
-                let mut takes = making.set(next);
+                let next = builder.at(slot, &known);
+                let next = builder.fit(next, register.width);
+                builder.graph.nexts[number as usize] = next;
+                let mut takes = builder.set(next);
                 insert(&mut takes, number as usize);
                 unite(&mut set, &takes);
                 let registers = takes.iter().map(|word| word.count_ones()).sum::<u32>();
-                making.graph.alone[number as usize] = registers == 1 && !making.crosses(next);
+                builder.graph.alone[number as usize] = registers == 1 && !builder.crosses(next);
                 roots.push(Root::Register {
                     register: number,
                     next,
                 });
             }
             for write in &block.writes {
-                let enable = making.at(write.enable, &known);
-                unite(&mut set, &making.set(enable));
-                // A block whose word is written already has nothing to do until it writes another one,
-                // or elsewhere.
+                let enable = builder.at(write.enable, &known);
+                unite(&mut set, &builder.set(enable));
+                // A block that has written its word is idle until the word or the address changes.
                 for moved in [Some(write.data), write.address].into_iter().flatten() {
-                    let moved = making.at(moved, &known);
-                    unite(&mut set, &making.set(moved));
+                    let moved = builder.at(moved, &known);
+                    unite(&mut set, &builder.set(moved));
                 }
                 roots.push(Root::Write { enable });
             }
             edges.push(set);
             trees.push(roots);
         }
-        making.finish(&trees, &edges, held)
+        builder.finish(&trees, &edges, held)
     }
 }
 
-struct Making<'p> {
+struct Builder<'p> {
     plan: &'p Plan,
     graph: Graph,
-    /// The words of a set.
+    /// Number of words of a set.
     words: usize,
-    /// The registers that each node, each net, is made of.
+    /// Registers on which each node, and each net, depends.
     nodes: Vec<Set>,
     nets: Vec<Set>,
     registers: FxHashMap<Slot, u32>,
     numbers: FxHashMap<Slot, u32>,
 }
 
-impl<'p> Making<'p> {
+impl<'p> Builder<'p> {
     fn new(plan: &'p Plan) -> Self {
         let registers = plan.registers.iter().enumerate();
-        Making {
+        Builder {
             plan,
             graph: Graph {
                 nexts: vec![From::Number(0); plan.registers.len()],
@@ -206,7 +205,7 @@ impl<'p> Making<'p> {
         }
     }
 
-    /// Its width, if it can move.
+    /// Returns the width of a source, if it can move.
     fn width(&self, from: From) -> Option<u8> {
         match from {
             From::Port(_) | From::Number(_) => None,
@@ -216,7 +215,7 @@ impl<'p> Making<'p> {
         }
     }
 
-    /// Whether a net is among what it is made of.
+    /// True if it depends on a net.
     fn crosses(&self, from: From) -> bool {
         match from {
             From::Net(_) => true,
@@ -231,7 +230,7 @@ impl<'p> Making<'p> {
         }
     }
 
-    /// The same in so many bits.
+    /// Extends or cuts a source to `width` bits.
     fn fit(&mut self, from: From, width: u8) -> From {
         match self.width(from) {
             Some(known) if known != width => {
@@ -266,7 +265,7 @@ impl<'p> Making<'p> {
         self.numbers.insert(slot, number);
     }
 
-    /// The nodes of a block, by where they stand while it runs.
+    /// Returns the nodes of a block, by their slots while it runs.
     fn block(&mut self, block: &Block) -> FxHashMap<Slot, From> {
         let mut known = FxHashMap::default();
         for step in &block.steps {
@@ -301,7 +300,8 @@ impl<'p> Making<'p> {
                 node.b = self.fit(node.b, width);
             }
             Code::Equal | Code::Below | Code::BelowSigned => {
-                // Equality and order do not ask for more bits than there are, the sign does.
+                // Equality and unsigned order need no more bits than exist; two's complement order
+                // needs the sign.
                 let b = self.at(step.b, known);
                 let wide = match code {
                     Code::BelowSigned => step.from,
@@ -339,12 +339,12 @@ impl<'p> Making<'p> {
             self.graph.starts.push(self.graph.items.len() as u32);
             tree(self.plan, &self.graph.nodes, roots, &mut self.graph.items);
         }
-        self.sights(held);
+        self.watched_nets(held);
         self.share();
         let graph = &mut self.graph;
         graph.edge_word = graph.nets.len().div_ceil(64);
-        graph.sight_word = graph.edge_word + edges.len().div_ceil(64);
-        graph.stride = graph.sight_word + graph.sights.len().div_ceil(64);
+        graph.watched_word = graph.edge_word + edges.len().div_ceil(64);
+        graph.stride = graph.watched_word + graph.watched_nets.len().div_ceil(64);
         graph.touches = vec![0; graph.stride * self.plan.registers.len()];
         let owners = self.plan.blocks[self.plan.settling..].iter().enumerate();
         for set in edges {
@@ -360,11 +360,14 @@ impl<'p> Making<'p> {
         for (edge, suppliers) in graph.suppliers.iter_mut().enumerate() {
             insert(suppliers, edge);
         }
-        let sights = graph.sights.iter().map(|sight| &self.nets[*sight as usize]);
+        let watched_nets = graph
+            .watched_nets
+            .iter()
+            .map(|watched| &self.nets[*watched as usize]);
         for (word, sets) in [
             (0, self.nets.iter().collect::<Vec<_>>()),
             (graph.edge_word, edges.iter().collect()),
-            (graph.sight_word, sights.collect()),
+            (graph.watched_word, watched_nets.collect()),
         ] {
             for (bit, set) in sets.into_iter().enumerate() {
                 for register in 0..self.plan.registers.len() {
@@ -380,19 +383,19 @@ impl<'p> Making<'p> {
         self.graph
     }
 
-    /// What is to stay as it is.
-    fn sights(&mut self, held: &[bool]) {
+    /// Collects the nets and registers that must not change.
+    fn watched_nets(&mut self, held: &[bool]) {
         let held = |slot: Slot| held.get(slot as usize).copied().unwrap_or(false);
         let registers = self.plan.registers.iter();
         self.graph.held = registers.map(|register| held(register.slot)).collect();
         for (number, net) in self.graph.nets.iter().enumerate() {
             if held(net.slot) {
-                self.graph.sights.push(number as u32);
+                self.graph.watched_nets.push(number as u32);
             }
         }
     }
 
-    /// Which nodes several take.
+    /// Finds the nodes that several read.
     fn share(&mut self) {
         let mut uses = vec![0u32; self.graph.nodes.len()];
         let mut take = |from: From| {
@@ -412,7 +415,7 @@ impl<'p> Making<'p> {
             }
         }
         for net in &self.graph.nets {
-            // Whoever reads it takes it.
+            // Each reader of the net evaluates it.
             take(net.made);
             take(net.made);
         }

@@ -1,14 +1,15 @@
-//! Idle ticks: as long as every register goes on along a straight line, there is nothing to see.
+//! Linear prediction: jumps over idle ticks, in which every register changes linearly.
 //!
-//! In a settled tick each register is taken to move by the same step in every tick. Sums of such
-//! lines are lines; a comparison, a choice or the upper bits of a word are what they are until some
-//! tick that arithmetic gives. If the registers after the edge are on the same lines, a run goes
-//! over all ticks up to the first of these in one.
+//! A line is a word `value + slope · k` over the ticks k. In a settled tick, the step that this
+//! edge would make is taken as the slope of each register. Sums of lines are lines. A comparison,
+//! a choice, or the upper bits of a word are constant up to a tick that arithmetic gives: the
+//! horizon. If the registers after the edge are on the same lines, all ticks up to the least
+//! horizon are one jump.
 
-mod course;
 mod graph;
 mod notes;
 mod pair;
+mod recipe;
 mod record;
 mod tree;
 mod walk;
@@ -20,70 +21,73 @@ use super::flat::mask;
 use super::interpreter::put;
 use super::layout::Slot;
 use super::plan::{Plan, PlannedRegister};
-use course::Course;
 use graph::{Graph, bits, has, insert, unite};
 use pair::Line;
+use recipe::Recipe;
 use record::Recorder;
-use walk::{Ends, Known, Moving, Pairs, Words};
+use walk::{Known, Moving, Pairs, Stop, Words};
 
-/// How far the registers of a plan go along straight lines.
+/// Linear prediction of a plan's registers.
 #[derive(Debug, Clone)]
-pub struct Lines {
+pub struct Prediction {
     graph: Graph,
     stamp: u64,
     pair_stamp: u64,
     words: Vec<Known<u64>>,
     lines: Vec<Known<(Line, u64)>>,
-    /// What the last try found.
+    /// Registers that move, found by the last attempt.
     moving: Vec<Moving>,
-    /// By slot, of registers.
+    /// Slopes, by slot of a register.
     slopes: Vec<u64>,
-    /// What these move.
+    /// Nets, blocks and watched nets that the moving registers affect; see [`Graph::touches`].
     touched: Vec<u64>,
-    /// Edge blocks that always run, as they were said to, and as bits.
+    /// Edge blocks that always run, as given and as bits.
     hot: Vec<bool>,
     hot_bits: Vec<u64>,
-    /// Edge blocks that this edge runs.
+    /// Edge blocks that run at this edge.
     due: Vec<u64>,
-    /// Those of them that were not looked at yet.
+    /// Due edge blocks that were not examined yet.
     left: Vec<u64>,
-    /// Registers and edge blocks that ended lines, the last one first.
-    bent: [u32; 6],
-    ended: [usize; 4],
-    courses: Vec<Course>,
-    /// The courses, the one that was right last first.
+    /// Registers and edge blocks that stopped recent attempts, the latest first.
+    last_offenders: [u32; 6],
+    last_blocks: [usize; 4],
+    recipes: Vec<Recipe>,
+    /// Indices of the recipes, the one that matched last first.
     order: Vec<usize>,
-    /// By slot: words that change while choices are as they were.
-    loose: Vec<bool>,
-    /// Tries to come before the next course is written down, and before the one behind that.
+    /// By slot: true if a recipe loads the word again each time, since it changes while choices
+    /// are the same.
+    reloaded: Vec<bool>,
+    /// Successful attempts to wait until the next recipe is recorded, and the interval after that
+    /// one.
     wait: u32,
-    price: u32,
-    /// The last horizon, if it was no greater for what was found.
+    interval: u32,
+    /// Last horizon, if a stop was found there.
     end: u64,
-    /// A register that moved and where it came to, in a tick that is the end of its line.
-    bend: Option<(Slot, u64)>,
-    /// How long the last try took, in compiled steps.
+    /// Register that moved and its word, in a tick that is the end of its line.
+    line_end: Option<(Slot, u64)>,
+    /// Cost of the last attempt, in compiled steps.
     work: u64,
 }
 
-/// How many compiled steps take as long as to begin a try, and as one node that it looks at.
-const TRY: u64 = 200;
+/// Cost in compiled steps of starting an attempt, and of one node that it examines.
+const ATTEMPT: u64 = 200;
 const NODE: u64 = 24;
-/// How often a course could be gone through in the time that it takes to write it down.
-const NOTE: u64 = 64;
+/// Cost of recording a recipe, in evaluations of it.
+const RECORDING: u64 = 64;
 
-/// Courses that are kept.
-const COURSES: usize = 16;
-/// Tries that found idle ticks, from one course that is written down to the next: the fewest, where
-/// the last was of use, and the most.
-const PRICES: [u32; 2] = [2, 128];
+/// Number of recipes kept.
+const RECIPES: usize = 16;
+/// Least and greatest interval between recorded recipes, in successful attempts. A matching recipe
+/// shortens it.
+const INTERVALS: [u32; 2] = [2, 128];
 
-impl Lines {
-    /// Room for a plan. By slot: which nets and registers are to stay as they are.
-    pub fn new(plan: &Plan, held: &[bool]) -> Lines {
+impl Prediction {
+    /// Creates the prediction of a plan; `held` gives by slot the nets and registers that must not
+    /// change.
+    pub fn new(plan: &Plan, held: &[bool]) -> Prediction {
         let graph = Graph::new(plan, held);
         let edges = plan.blocks.len() - plan.settling;
-        Lines {
+        Prediction {
             stamp: 0,
             pair_stamp: 0,
             words: vec![Known::nothing(0); graph.nodes.len()],
@@ -95,32 +99,32 @@ impl Lines {
             hot_bits: vec![0; edges.div_ceil(64)],
             due: vec![0; edges.div_ceil(64)],
             left: vec![0; edges.div_ceil(64)],
-            bent: [u32::MAX; 6],
-            ended: [usize::MAX; 4],
-            courses: Vec::with_capacity(COURSES),
-            order: Vec::with_capacity(COURSES),
-            loose: vec![false; plan.layout.words as usize],
+            last_offenders: [u32::MAX; 6],
+            last_blocks: [usize::MAX; 4],
+            recipes: Vec::with_capacity(RECIPES),
+            order: Vec::with_capacity(RECIPES),
+            reloaded: vec![false; plan.layout.words as usize],
             end: u64::MAX,
-            bend: None,
+            line_end: None,
             work: 0,
             wait: 0,
-            price: PRICES[0],
+            interval: INTERVALS[0],
             graph,
         }
     }
 
-    /// For how many ticks from this one on, at most so many, all edges leave every register on a
-    /// straight line and everything watched as it is.
+    /// Returns the number of ticks from this one on, at most `most`, in which all edges keep every
+    /// register on its line and everything watched unchanged.
     ///
-    /// The slab is settled, before its edge. What is watched may be another word after so many
-    /// ticks, not before. 0 where the edge does more, or where nothing better is known. Blocks
-    /// that are `hot` run though nothing wakes them.
+    /// The slab is settled, before its edge. A watched word may change after that number of ticks,
+    /// not before. Returns 0 if the edge does more, or if nothing is known. `hot` blocks run even
+    /// if nothing wakes them.
     pub fn horizon(&mut self, plan: &Plan, hot: &[bool], slab: &[u64], most: u64) -> u64 {
         self.moving.clear();
         self.end = u64::MAX;
-        self.work = TRY;
-        let bend = self.bend.take();
-        if most == 0 || bend.is_some_and(|(slot, word)| slab[slot as usize] == word) {
+        self.work = ATTEMPT;
+        let line_end = self.line_end.take();
+        if most == 0 || line_end.is_some_and(|(slot, word)| slab[slot as usize] == word) {
             return 0;
         }
         let until = self.find(plan, hot, slab, most);
@@ -130,13 +134,13 @@ impl Lines {
         until
     }
 
-    /// How long the last try took, in compiled steps.
+    /// Returns the cost of the last attempt, in compiled steps.
     pub fn work(&self) -> u64 {
         self.work
     }
 
     fn find(&mut self, plan: &Plan, hot: &[bool], slab: &[u64], most: u64) -> u64 {
-        self.heat(&hot[plan.settling..]);
+        self.set_hot(&hot[plan.settling..]);
         let first = plan.layout.dirty as usize + plan.settling.div_ceil(64);
         for (word, (due, hot)) in self.due.iter_mut().zip(&self.hot_bits).enumerate() {
             *due = slab[first + word] | hot;
@@ -144,7 +148,7 @@ impl Lines {
         if let Some(until) = self.recall(slab, most) {
             return until;
         }
-        let until = self.seek(plan, slab, most).unwrap_or(0);
+        let until = self.examine(plan, slab, most).unwrap_or(0);
         if until > 1 && !self.moving.is_empty() {
             self.remember(plan, slab);
         }
@@ -157,20 +161,20 @@ impl Lines {
         until
     }
 
-    /// Looks at everything, at what ended lines of late first.
-    fn seek(&mut self, plan: &Plan, slab: &[u64], most: u64) -> Result<u64, Ends> {
+    /// Examines the circuit; blocks and registers that stopped recent attempts come first.
+    fn examine(&mut self, plan: &Plan, slab: &[u64], most: u64) -> Result<u64, Stop> {
         self.stamp += 1;
         self.touched.fill(0);
-        for place in 0..self.bent.len() {
-            let register = self.bent[place];
-            if register != u32::MAX && self.bends(plan, slab, register) {
-                self.bent[..=place].rotate_right(1);
-                return Err(Ends(None));
+        for place in 0..self.last_offenders.len() {
+            let register = self.last_offenders[place];
+            if register != u32::MAX && self.leaves_line(plan, slab, register) {
+                self.last_offenders[..=place].rotate_right(1);
+                return Err(Stop(None));
             }
         }
         self.left.copy_from_slice(&self.due);
-        for place in 0..self.ended.len() {
-            let edge = self.ended[place];
+        for place in 0..self.last_blocks.len() {
+            let edge = self.last_blocks[place];
             if most > 1 && has(&self.due, edge) {
                 self.step(plan, slab, Some(edge))?;
                 self.follow(plan, slab, most, Some(edge))?;
@@ -183,8 +187,8 @@ impl Lines {
         }
     }
 
-    /// Finds what this edge moves, or no more than what a block depends on.
-    fn step(&mut self, plan: &Plan, slab: &[u64], of: Option<usize>) -> Result<(), Ends> {
+    /// Finds the registers that this edge moves; with `of`, only those that a block depends on.
+    fn step(&mut self, plan: &Plan, slab: &[u64], of: Option<usize>) -> Result<(), Stop> {
         let known = self.moving.len();
         let graph = &self.graph;
         let mut words = Words {
@@ -203,7 +207,7 @@ impl Lines {
                 let edge = word * 64 + now.trailing_zeros() as usize;
                 now &= now - 1;
                 if let Err(ends) = words.edge(edge, &mut self.moving) {
-                    return Err(self.end_at(edge, ends.0));
+                    return Err(self.stop_at(edge, ends.0));
                 }
             }
         }
@@ -216,15 +220,15 @@ impl Lines {
         Ok(())
     }
 
-    /// For how many ticks, at most so many, everything stays on the lines that were found, or a
-    /// block.
+    /// Returns the number of ticks, at most `most`, in which everything stays on the lines found;
+    /// with `only`, one block alone.
     fn follow(
         &mut self,
         plan: &Plan,
         slab: &[u64],
         most: u64,
         only: Option<usize>,
-    ) -> Result<u64, Ends> {
+    ) -> Result<u64, Stop> {
         let graph = &self.graph;
         self.pair_stamp += 1;
         let mut pairs = Pairs {
@@ -239,29 +243,29 @@ impl Lines {
             until: most,
             all: false,
         };
-        let edges = &self.touched[graph.edge_word..graph.sight_word];
+        let edges = &self.touched[graph.edge_word..graph.watched_word];
         if let Some(edge) = only {
             if has(edges, edge)
                 && let Err(ends) = pairs.edge(edge)
             {
                 let alone = ends.0.filter(|&register| graph.alone[register as usize]);
-                return Err(self.end_at(edge, alone));
+                return Err(self.stop_at(edge, alone));
             }
             return Ok(pairs.until);
         }
         let end = bits(edges).find_map(|edge| Some((edge, pairs.edge(edge).err()?)));
         if let Some((edge, ends)) = end {
             let alone = ends.0.filter(|&register| graph.alone[register as usize]);
-            return Err(self.end_at(edge, alone));
+            return Err(self.stop_at(edge, alone));
         }
-        for sight in bits(&self.touched[graph.sight_word..]) {
-            pairs.net(graph.sights[sight])?;
+        for watched in bits(&self.touched[graph.watched_word..]) {
+            pairs.net(graph.watched_nets[watched])?;
         }
         Ok(pairs.until)
     }
 
-    /// Whether a register leaves its line at once, as far as it alone can say.
-    fn bends(&mut self, plan: &Plan, slab: &[u64], register: u32) -> bool {
+    /// True if a register leaves its line at once, judged by this register alone.
+    fn leaves_line(&mut self, plan: &Plan, slab: &[u64], register: u32) -> bool {
         let graph = &self.graph;
         let next = graph.nexts[register as usize];
         let PlannedRegister { slot, width, .. } = plan.registers[register as usize];
@@ -297,59 +301,60 @@ impl Lines {
             until: u64::MAX,
             all: false,
         };
-        let bends = pairs.line(next).slope != slope || pairs.until <= 1;
+        let leaves_line = pairs.line(next).slope != slope || pairs.until <= 1;
         self.slopes[slot as usize] = 0;
-        bends
+        leaves_line
     }
 
-    /// It is this block that ends lines.
-    fn end_at(&mut self, edge: usize, register: Option<u32>) -> Ends {
+    /// Remembers a block or register that stopped an attempt.
+    fn stop_at(&mut self, edge: usize, register: Option<u32>) -> Stop {
         match register {
-            Some(register) => recall_first(&mut self.bent, register),
-            None => recall_first(&mut self.ended, edge),
+            Some(register) => move_first(&mut self.last_offenders, register),
+            None => move_first(&mut self.last_blocks, edge),
         }
-        Ends(register)
+        Stop(register)
     }
 
-    /// What a course says.
+    /// Returns the horizon of a recipe that matches.
     fn recall(&mut self, slab: &[u64], most: u64) -> Option<u64> {
         for place in 0..self.order.len() {
             let number = self.order[place];
-            let course = &mut self.courses[number];
-            self.work += course.steps;
-            if let Some(until) = course.run(slab, &self.due, most) {
-                self.moving.extend_from_slice(&course.moving);
+            let recipe = &mut self.recipes[number];
+            self.work += recipe.cost;
+            if let Some(until) = recipe.run(slab, &self.due, most) {
+                self.moving.extend_from_slice(&recipe.moving);
                 self.order[..=place].rotate_right(1);
                 self.wait = self.wait.saturating_sub(1);
-                self.price = self.price.min(PRICES[0].max(self.price / 2));
+                self.interval = self.interval.min(INTERVALS[0].max(self.interval / 2));
                 return Some(until);
             }
         }
         None
     }
 
-    /// Writes down what this try found.
+    /// Records the result of this attempt as a recipe.
     fn remember(&mut self, plan: &Plan, slab: &[u64]) {
         if self.wait > 0 {
             self.wait -= 1;
             return;
         }
-        self.wait = self.price;
-        self.price = PRICES[1].min(2 * self.price);
+        self.wait = self.interval;
+        self.interval = INTERVALS[1].min(2 * self.interval);
         self.moving.sort_unstable_by_key(|moving| moving.register);
-        // The same again with other words: these are taken anew from now on.
+        // Words of an otherwise equal recipe that changed are loaded again from now on.
         let place = self.order.iter().position(|&number| {
-            let course = &self.courses[number];
-            course.moving == self.moving && course.loosen(slab, &mut self.loose)
+            let recipe = &self.recipes[number];
+            recipe.moving == self.moving && recipe.mark_reloaded(slab, &mut self.reloaded)
         });
         let graph = &self.graph;
         let mut edges = self.due.clone();
-        let touched = &self.touched[graph.edge_word..graph.sight_word];
+        let touched = &self.touched[graph.edge_word..graph.watched_word];
         edges
             .iter_mut()
             .zip(touched)
             .for_each(|(to, from)| *to |= from);
-        let sights = bits(&self.touched[graph.sight_word..]).map(|sight| graph.sights[sight]);
+        let watched_nets =
+            bits(&self.touched[graph.watched_word..]).map(|watched| graph.watched_nets[watched]);
         let mut pairs = Pairs {
             plan,
             graph,
@@ -362,27 +367,27 @@ impl Lines {
             until: u64::MAX,
             all: true,
         };
-        let recorder = Recorder::new(&mut pairs, &self.loose);
-        let Some(mut course) = recorder.record(&edges, sights) else {
+        let recorder = Recorder::new(&mut pairs, &self.reloaded);
+        let Some(mut recipe) = recorder.record(&edges, watched_nets) else {
             return;
         };
-        course.moving.clone_from(&self.moving);
-        course.steps = 16 + (course.makings.len() + course.bounds.len()) as u64 * 8;
-        self.work += course.steps * NOTE;
+        recipe.moving.clone_from(&self.moving);
+        recipe.cost = 16 + (recipe.steps.len() + recipe.bounds.len()) as u64 * 8;
+        self.work += recipe.cost * RECORDING;
         let number = match place {
             Some(place) => self.order.remove(place),
-            None if self.courses.len() < COURSES => {
-                self.courses.push(Course::default());
-                self.courses.len() - 1
+            None if self.recipes.len() < RECIPES => {
+                self.recipes.push(Recipe::default());
+                self.recipes.len() - 1
             }
             None => self.order.pop().unwrap_or(0),
         };
-        self.courses[number] = course;
+        self.recipes[number] = recipe;
         self.order.insert(0, number);
     }
 
-    /// Takes over which edge blocks are hot.
-    fn heat(&mut self, hot: &[bool]) {
+    /// Sets which edge blocks are hot.
+    fn set_hot(&mut self, hot: &[bool]) {
         if hot == self.hot {
             return;
         }
@@ -393,9 +398,9 @@ impl Lines {
         }
     }
 
-    /// Goes over so many ticks, at most as many as the last horizon.
+    /// Jumps over `ticks` ticks, at most the last horizon.
     ///
-    /// The slab is then as after so many edges with a settling before each.
+    /// The slab is then as after `ticks` edges with a settling before each.
     pub fn jump(&mut self, plan: &Plan, slab: &mut [u64], ticks: u64) {
         for moving in &self.moving {
             let way = moving.slope.wrapping_mul(ticks);
@@ -405,13 +410,13 @@ impl Lines {
         if ticks == self.end
             && let Some(moving) = self.moving.first()
         {
-            self.bend = Some((moving.slot, slab[moving.slot as usize]));
+            self.line_end = Some((moving.slot, slab[moving.slot as usize]));
         }
     }
 }
 
-/// Puts one first, in place of the last if it is new.
-fn recall_first<T: PartialEq>(list: &mut [T], one: T) {
+/// Moves an item to the front; a new one replaces the last.
+fn move_first<T: PartialEq>(list: &mut [T], one: T) {
     let last = list.len() - 1;
     let place = list.iter().position(|known| *known == one);
     list[..=place.unwrap_or(last)].rotate_right(1);

@@ -1,4 +1,4 @@
-//! Each operation on lines against the same on the words of each tick.
+//! Operations on lines, compared with the same operations on the words of each tick.
 
 use super::super::pair::Line;
 use crate::engine::flat::{Node, Op, mask};
@@ -19,7 +19,7 @@ fn word() -> impl Strategy<Value = u64> {
     ]
 }
 
-/// A word that moves, or stays.
+/// Words that move or are constant.
 fn line() -> impl Strategy<Value = (u64, u64)> {
     (word(), prop_oneof![Just(0), word()])
 }
@@ -28,7 +28,7 @@ fn at(line: Line, tick: u64, width: u8) -> u64 {
     line.value.wrapping_add(line.slope.wrapping_mul(tick)) & mask(width)
 }
 
-/// Ticks that are looked at of a line.
+/// Ticks that are checked of a line.
 const TICKS: u64 = 300;
 
 proptest! {
@@ -87,7 +87,7 @@ proptest! {
             let is = value::of(node, |id| words[id as usize]);
             prop_assert_eq!(at(line, tick, width), is, "tick {} of {}", tick, until);
         }
-        // Equality ends exactly where it is another one, order too where no word wraps around.
+        // Equality ends exactly at a change; so does order if no word wraps.
         if matches!(kind, 8..=10) && *until < TICKS {
             let words = [(at(a, *until, from), from), (at(b, *until, from), from)];
             let is = value::of(Node { op, width, instance: 0 }, |id| words[id as usize]);

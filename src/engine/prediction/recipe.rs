@@ -1,5 +1,5 @@
-//! What a try found, kept for those to come: while the same registers move and the same choices are
-//! made, only the words that bound them are looked at.
+//! Recipes: the result of an attempt, kept for later ones. While the same registers move and the
+//! same choices are made, only the words that bound the horizon are evaluated.
 
 use super::pair::{Line, within};
 use super::walk::Moving;
@@ -8,31 +8,31 @@ use crate::engine::layout::Slot;
 use crate::engine::plan::Code;
 use crate::engine::value::signed;
 
-/// A word of a course.
+/// Index of a word of a recipe.
 pub(super) type Word = u32;
 
-/// A word plus a number, modulo as many bits as are looked at.
+/// Word plus a number, modulo the bits that the bound reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Sum {
     pub word: Word,
     pub plus: u64,
 }
 
-/// What is to be so, and for how many ticks it is.
+/// Condition, and its horizon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Bound {
-    /// It is one of so many words from a first one on, and moves.
+    /// The sum is in a range and moves.
     Within {
         sum: Sum,
         mask: u64,
-        /// The last of them, counted from the first, which the sum has been lowered by.
+        /// Last word of the range, counted from its first, by which the sum is lowered.
         span: u64,
         up: bool,
         speed: u64,
     },
-    /// It is not zero, and moves.
+    /// The sum is not zero and moves.
     Apart { sum: Sum, width: u8, slope: u64 },
-    /// The first is less than the second, or is not; they get closer by so much in a tick.
+    /// The first is less than the second, or is not; their distance shrinks by `speed` per tick.
     Order {
         sums: [Sum; 2],
         mask: u64,
@@ -41,9 +41,9 @@ pub(super) enum Bound {
     },
 }
 
-/// A step.
+/// Operation that computes a word.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Making {
+pub(super) struct Step {
     pub code: Code,
     pub width: u8,
     pub from: u8,
@@ -53,31 +53,31 @@ pub(super) struct Making {
     pub to: Word,
 }
 
-/// How registers move while choices are as they were.
+/// Movement of the registers while choices are the same.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Course {
-    /// The edge blocks that it knows.
+pub(super) struct Recipe {
+    /// Edge blocks that it covers.
     pub edges: Vec<u64>,
     pub moving: Vec<Moving>,
-    /// What is to stand where.
+    /// Slots, and the words that they must hold.
     pub guards: Vec<(Slot, u64)>,
-    /// The guard that failed last.
-    pub weak: usize,
+    /// Guard that failed last; it is checked first.
+    pub last_failed: usize,
     pub words: Vec<u64>,
-    /// Words that stand in the slab.
+    /// Words loaded from the slab.
     pub loads: Vec<(Word, Slot)>,
-    pub makings: Vec<Making>,
+    pub steps: Vec<Step>,
     pub bounds: Vec<Bound>,
-    /// Compiled steps that take as long as to look at it.
-    pub steps: u64,
+    /// Cost of evaluating the recipe, in compiled steps.
+    pub cost: u64,
 }
 
-impl Course {
-    /// For how many ticks, at most so many, registers move as they did; none if something else runs
-    /// or other choices are made.
+impl Recipe {
+    /// Returns the number of ticks, at most `most`, in which registers move as recorded; `None` if
+    /// other blocks run or other choices are made.
     pub fn run(&mut self, slab: &[u64], due: &[u64], most: u64) -> Option<u64> {
         let holds = |&(slot, word): &(Slot, u64)| slab[slot as usize] == word;
-        if !self.guards.get(self.weak).is_none_or(holds) {
+        if !self.guards.get(self.last_failed).is_none_or(holds) {
             return None;
         }
         if due
@@ -87,15 +87,15 @@ impl Course {
         {
             return None;
         }
-        if let Some(weak) = self.guards.iter().position(|guard| !holds(guard)) {
-            self.weak = weak;
+        if let Some(last_failed) = self.guards.iter().position(|guard| !holds(guard)) {
+            self.last_failed = last_failed;
             return None;
         }
         for &(word, slot) in &self.loads {
             self.words[word as usize] = slab[slot as usize];
         }
-        for making in &self.makings {
-            self.words[making.to as usize] = making.make(&self.words);
+        for step in &self.steps {
+            self.words[step.to as usize] = step.run(&self.words);
         }
         let mut until = most;
         for bound in &self.bounds {
@@ -104,23 +104,23 @@ impl Course {
         Some(until)
     }
 
-    /// Marks the slots of guards that fail; whether no other choice was made.
-    pub fn loosen(&self, slab: &[u64], loose: &mut [bool]) -> bool {
-        let mut loosened = false;
+    /// Marks the slots of failed guards to be loaded again. Returns false if a choice differs.
+    pub fn mark_reloaded(&self, slab: &[u64], reloaded: &mut [bool]) -> bool {
+        let mut found = false;
         for &(slot, word) in &self.guards {
             let is = slab[slot as usize];
             if is != word {
                 // Bits are choices.
-                if is.max(word) < 2 || loose[slot as usize] {
+                if is.max(word) < 2 || reloaded[slot as usize] {
                     return false;
                 }
-                loosened = true;
+                found = true;
             }
         }
-        for &(slot, word) in self.guards.iter().filter(|_| loosened) {
-            loose[slot as usize] |= slab[slot as usize] != word;
+        for &(slot, word) in self.guards.iter().filter(|_| found) {
+            reloaded[slot as usize] |= slab[slot as usize] != word;
         }
-        loosened
+        found
     }
 }
 
@@ -131,7 +131,7 @@ impl Sum {
 }
 
 impl Bound {
-    /// For how many ticks; none if it does not.
+    /// Returns the horizon of the condition; `None` if it is false.
     #[inline]
     fn holds(&self, words: &[u64]) -> Option<u64> {
         match *self {
@@ -180,15 +180,15 @@ impl Bound {
     }
 }
 
-impl Making {
-    fn make(&self, words: &[u64]) -> u64 {
+impl Step {
+    fn run(&self, words: &[u64]) -> u64 {
         let (a, b) = (words[self.a as usize], words[self.b as usize]);
         of(self.code, [self.width, self.from, self.by], a, b)
     }
 }
 
-/// What an operation that looks at all of its operands makes; `bits` are width, width of the first
-/// operand, and [`by`](crate::engine::plan::Step::by).
+/// Returns the result of an operation that reads all of its operands; `bits` are width, width of
+/// the first operand, and [`by`](crate::engine::plan::Step::by).
 #[inline]
 pub(super) fn of(code: Code, bits: [u8; 3], a: u64, b: u64) -> u64 {
     let [width, from, by] = bits;

@@ -1,26 +1,26 @@
-//! The arithmetic of lines: what an operation makes of words that move by the same step in every
-//! tick.
+//! Arithmetic of lines: the result of an operation on words that change linearly.
 
 use crate::engine::flat::mask;
 use crate::engine::value::signed;
 
-/// A word over the ticks from now on: `value + slope * k` modulo 2^width in tick k.
+/// Word over the ticks from now on: `value + slope * k` modulo 2^width in tick k.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Line {
     pub value: u64,
-    /// The step of a tick, modulo 2^width.
+    /// Change per tick, modulo 2^width.
     pub slope: u64,
 }
 
-/// Ticks in which a word stays within so much room, if it moves by so much a tick.
+/// Returns the number of ticks in which a word that moves by `speed` per tick stays within `room`.
 pub(super) fn within(room: u64, speed: u64) -> u64 {
     let steps = if speed == 1 { room } else { room / speed };
     steps.saturating_add(1)
 }
 
-/// Where an operation is no line for good, it lowers `until` to the number of ticks in which it is.
+/// Operations on lines. If the result is a line for a limited time only, `until` is lowered to
+/// that number of ticks.
 impl Line {
-    /// A word that stays as it is.
+    /// Returns a constant word.
     pub fn still(value: u64) -> Line {
         Line { value, slope: 0 }
     }
@@ -29,7 +29,7 @@ impl Line {
         self.slope == 0
     }
 
-    /// Ticks before it passes the end of the unsigned words.
+    /// Returns the number of ticks before the word passes the end of the unsigned range.
     fn unsigned_end(self, width: u8) -> u64 {
         match signed(self.slope, width) {
             0 => u64::MAX,
@@ -38,7 +38,7 @@ impl Line {
         }
     }
 
-    /// The same words in two's complement, counted from the lowest on.
+    /// Returns the two's complement words counted from the lowest.
     fn lifted(self, width: u8) -> Line {
         Line {
             value: (self.value ^ (1 << (width - 1))) & mask(width),
@@ -46,7 +46,7 @@ impl Line {
         }
     }
 
-    /// Only so many bits of it.
+    /// Cuts the line to `width` bits.
     pub fn low(self, width: u8) -> Line {
         Line {
             value: self.value & mask(width),
@@ -111,12 +111,12 @@ impl Line {
         .low(width)
     }
 
-    /// Of a word of `from` bits those from `by` up, which is less than `from`.
+    /// Returns the bits from `by` up of a word of `from` bits; `by` must be below `from`.
     pub fn high(self, by: u8, from: u8, until: &mut u64) -> Line {
         let rest = (1 << by) - 1;
         let value = self.value >> by;
         if self.slope & rest == 0 {
-            // Nothing is ever carried from below.
+            // Lower bits never carry.
             let slope = self.slope >> by;
             return Line { value, slope };
         }
@@ -129,7 +129,7 @@ impl Line {
         Line::still(value)
     }
 
-    /// So many bits from `by` up.
+    /// Returns `width` bits from `by` up.
     pub fn slice(self, by: u8, from: u8, width: u8, until: &mut u64) -> Line {
         if by >= from {
             return Line::still(self.value.checked_shr(by.into()).unwrap_or(0)).low(width);
@@ -143,7 +143,7 @@ impl Line {
         line.extend_signed(from - by, width, until)
     }
 
-    /// Zeros above, or fewer bits.
+    /// Zero-extends or cuts.
     pub fn extend(self, from: u8, width: u8, until: &mut u64) -> Line {
         if self.is_still() || width <= from {
             return self.low(width);
@@ -156,7 +156,7 @@ impl Line {
         .low(width)
     }
 
-    /// The sign above, or fewer bits.
+    /// Sign-extends or cuts.
     pub fn extend_signed(self, from: u8, width: u8, until: &mut u64) -> Line {
         let value = signed(self.value, from) as u64;
         if self.is_still() || width <= from {
@@ -170,7 +170,7 @@ impl Line {
         .low(width)
     }
 
-    /// Above another one of `by` bits.
+    /// Concatenates the line above another of `by` bits.
     pub fn join(self, low: Line, by: u8, width: u8, until: &mut u64) -> Line {
         let low = low.extend(by, width, until);
         self.shift_left(by, width).add(low, width)
@@ -195,7 +195,7 @@ impl Line {
             let bits = bits.min(width);
             return line.low(bits).extend(bits, width, until);
         }
-        // It stays as it is while none of these bits does anything.
+        // Constant while none of these bits changes.
         if !line.high(first, width, until).is_still() {
             *until = 1;
         }
@@ -220,14 +220,14 @@ impl Line {
             return line.not(width);
         }
         if with == Line::still(1 << (width - 1)) {
-            // The sign turned over is a sum.
+            // Inverting the sign is an addition.
             return Line { value, ..line };
         }
         *until = 1;
         Line::still(value)
     }
 
-    /// Whether both words, of so many bits, are the same.
+    /// Compares two words of `width` bits for equality.
     pub fn equal(self, other: Line, width: u8, until: &mut u64) -> Line {
         let apart = self.subtract(other, width);
         if !apart.is_still() {
@@ -236,7 +236,7 @@ impl Line {
         Line::still(u64::from(apart.value == 0))
     }
 
-    /// Ticks in which a word that moves stays zero, or stays something else.
+    /// Returns the number of ticks in which a moving word stays zero, or stays nonzero.
     pub fn meeting(self, width: u8) -> u64 {
         let Line { value, slope } = self;
         if value == 0 {
@@ -249,7 +249,7 @@ impl Line {
             _ if value.trailing_zeros() < zeros => return u64::MAX,
             _ => {}
         }
-        // The first k with value + slope * k = 0 modulo 2^width.
+        // Smallest k with value + slope * k = 0 modulo 2^width.
         let odd = slope >> zeros;
         let mut inverse = odd;
         for _ in 0..5 {
@@ -259,7 +259,7 @@ impl Line {
         distance.wrapping_mul(inverse) & (mask(width) >> zeros)
     }
 
-    /// Whether it is less than another one, both of so many bits.
+    /// True if the word is less than another, both of `width` bits.
     pub fn below(self, other: Line, width: u8, until: &mut u64) -> Line {
         let below = self.value < other.value;
         if self.is_still() && other.is_still() {
@@ -268,7 +268,7 @@ impl Line {
         let ends = self.unsigned_end(width).min(other.unsigned_end(width));
         let (mine, its) = (signed(self.slope, width), signed(other.slope, width));
         let crossing = if below {
-            // It is no longer where it has made up for all of the distance.
+            // Stop when it has made up the distance.
             match faster(mine, its) {
                 0 => u64::MAX,
                 speed => within(other.value - self.value - 1, speed),
@@ -283,14 +283,14 @@ impl Line {
         Line::still(below.into())
     }
 
-    /// The same in two's complement.
+    /// Compares in two's complement.
     pub fn below_signed(self, other: Line, width: u8, until: &mut u64) -> Line {
         let (mine, its) = (self.lifted(width), other.lifted(width));
         mine.below(its, width, until)
     }
 }
 
-/// By how much the first goes up faster than the second; 0 where it does not.
+/// Returns how much faster the first goes up than the second; 0 if it does not.
 pub(super) fn faster(first: i64, second: i64) -> u64 {
     if first > second {
         first.abs_diff(second)
