@@ -221,7 +221,7 @@ impl Records {
             let again = if self.flood { START + 1 } else { AGAIN };
             set("push", u64::from(age % again == START));
             for (target, end) in [("target_x", 0), ("target_y", 1)] {
-                // As far as possible: from the wrong side of 0 that is refused.
+                // Greatest possible distance: from the wrong side of 0 that is refused.
                 let far = (1 << (width(target) - 1)) - end;
                 let near = signed(random, 9);
                 let is_far = self.flood && age == START;

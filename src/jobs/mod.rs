@@ -1,7 +1,7 @@
-//! Jobs: what the circuits are given and what came of it, by programs that are no hardware.
+//! Jobs: inputs of the circuits and their results, by programs that are not hardware.
 //!
-//! A folder for each circuit: its settings, what makes words of a drawing, the control computer that
-//! feeds it, a run with what stands around it, and what is measured of the run.
+//! Each circuit has a folder: its settings, the conversion of a drawing to words, the control
+//! computer that feeds it, a run with its surroundings, and the measures of the run.
 
 pub mod arc_generator;
 pub mod lead_angle;

@@ -1,4 +1,5 @@
-//! The arcs of a path on the conventional circuit, each from rest to rest, beside the arc generator.
+//! Arcs of a path on the conventional circuit, each from rest to rest, for comparison with the arc
+//! generator.
 
 use super::conventional::Conventional as Method;
 use super::job::{Bench, Command, Played, See};
@@ -13,10 +14,10 @@ use crate::path::record::{Record, WORDS, coordinate_word};
 use crate::path::vector::scale;
 use std::f64::consts::TAU;
 
-/// The records of an arc: where it begins, ramp, constant speed, ramp, or without ramps two. `None`
-/// where a coordinate or the radius is no word, or its samples are too many.
+/// Returns the records of an arc: start, ramp, constant speed, ramp; without ramps two. Returns
+/// `None` if a coordinate or the radius does not fit its word, or there are too many samples.
 ///
-/// Each has the vector at which it begins, so an error does not go on to the next.
+/// Each record has its start vector, so an error does not carry over to the next.
 #[must_use]
 pub fn records(run: &Method, counts_per_mm: f64, widths: &Widths) -> Option<Vec<Record>> {
     let circle = &run.circle;
@@ -53,7 +54,7 @@ pub fn records(run: &Method, counts_per_mm: f64, widths: &Widths) -> Option<Vec<
             blend(all - ramp, [all - ramp, all, all]),
         ],
     };
-    // It ends at rest.
+    // The path ends at rest.
     if let Some(last) = records.last_mut() {
         last.words[0] |= 4;
     }
@@ -90,11 +91,11 @@ fn record(
     Record { words }
 }
 
-/// Plays the records of arcs on `circuit`, a sample every `sample_ticks` ticks or as soon as there is
-/// one, seen by `observer` too.
+/// Plays the records of arcs on `circuit`, a sample every `sample_ticks` ticks or as soon as one
+/// is ready; `observer` sees it too.
 ///
 /// # Errors
-/// `observer` objects.
+/// Returns the error of `observer`.
 pub fn play(
     circuit: &Conventional,
     records: &[Record],
@@ -107,11 +108,11 @@ pub fn play(
     Ok(Played { commands, ..played })
 }
 
-/// Does what [`play`] does, but tells every command to `each` as it comes and keeps none, with the
-/// joints of `hand` beside it as [`job::play_each`](super::job::play_each) has them.
+/// Plays as [`play`] does, but passes every command to `each` and keeps none; the joints of `hand`
+/// are beside the circuit as in [`job::play_each`](super::job::play_each).
 ///
 /// # Errors
-/// `observer` objects.
+/// Returns the error of `observer`.
 pub fn play_each(
     circuit: &Conventional,
     records: &[Record],

@@ -1,4 +1,4 @@
-//! How far a rotation may be off after n steps.
+//! Error bound of a rotation after n steps.
 //!
 //! A step is v ← R̂·v + ρ with R̂ = R + E. Every coefficient is off by at most half of its last bit,
 //! 2^-(B+1), so |E·v| <= 3·2^-(B+1)·|v|. Every coordinate is rounded to guard units of 2^-G count:
@@ -10,24 +10,24 @@ use crate::circuits::arc_generator::{Rounding, Widths};
 use crate::circuits::blocks::cordic_state::GAIN;
 use std::f64::consts::TAU;
 
-/// How far the `f64` of a coefficient may be off: the sine, the cosine, and three roundings.
+/// Error bound of a coefficient as `f64`: the sine, the cosine, and three roundings.
 const COEFFICIENT_F64: f64 = 4.0 * f64::EPSILON;
 
-/// Largest distance, in counts, of a point of the rotation from the exact arc's point, after `steps`
-/// steps at a radius of `radius` counts: vector and centre as words, coefficients as words, and the
-/// rounding of every step.
+/// Returns the greatest distance, in counts, of a point of the rotation from the exact arc's
+/// point, after `steps` steps at a radius of `radius` counts. Includes the rounding of vector,
+/// centre and coefficients to words, and of every step.
 #[must_use]
 pub fn rotation_error(radius: f64, steps: u64, widths: &Widths, rounding: Rounding) -> f64 {
     let coefficients = 3.0 * (half(widths.coefficient_fraction()) + COEFFICIENT_F64);
     grown(radius, steps, coefficients, widths, rounding)
 }
 
-/// Half a unit of a word with so many bits below the point.
+/// Returns half a unit of a word with `bits` fraction bits.
 fn half(bits: usize) -> f64 {
     (-((bits + 1) as f64)).exp2()
 }
 
-/// What an error of the matrix and the rounding of every step grow to.
+/// Returns the bound to which a matrix error and the rounding of every step grow.
 fn grown(radius: f64, steps: u64, matrix: f64, widths: &Widths, rounding: Rounding) -> f64 {
     let guard = 3f64.sqrt() * half(widths.guard());
     let rounded = match rounding {
@@ -36,37 +36,37 @@ fn grown(radius: f64, steps: u64, matrix: f64, widths: &Widths, rounding: Roundi
     };
     // (1 + ε)^n − 1.
     let grown = (steps as f64 * matrix.ln_1p()).exp_m1();
-    // The vector is the difference of two rounded points; the centre is rounded itself.
+    // The vector is the difference of two rounded points; the centre is rounded too.
     let begun = 2.0 * guard * (1.0 + grown) + guard;
     begun + grown / matrix * (matrix * radius + rounded)
 }
 
-/// Largest distance, in counts, of a coordinate from the exact quartic or line where it is made by
-/// products, before it is rounded to a guard unit.
+/// Returns the greatest distance, in counts, of a coordinate from the exact quartic or line if it
+/// is computed by products, before it is rounded to a guard unit.
 ///
-/// h is half a unit of 2^-B off at most, and takes the point along by |x'| <= 2^(P+1) guard units for
-/// each 1; h² is as much off, which (2 − h)h³ has half of, and that is as much off itself, both times
-/// |S| <= 2^(P+1).
+/// The error of h is at most half a unit of 2^-B, and moves the point by |x'| <= 2^(P+1) guard
+/// units per 1. The error of h² is as large, of which (2 − h)h³ has half, and its own rounding is
+/// as large again, both times |S| <= 2^(P+1).
 #[must_use]
 pub fn product_error(widths: &Widths) -> f64 {
     let most = (widths.position as f64 + 1.0).exp2();
     2.5 * half(widths.coefficient_fraction()) * most
 }
 
-/// The same of a position command, which is rounded to counts.
+/// Returns the bound for a position command, which is rounded to counts.
 #[must_use]
 pub fn command_error(radius: f64, steps: u64, widths: &Widths, rounding: Rounding) -> f64 {
     rotation_error(radius, steps, widths, rounding) + 3f64.sqrt() / 2.0
 }
 
-/// Largest distance, in counts, of a position command of the conventional circuit from the exact
-/// point of its sample, after `steps` steps at a radius of `radius` counts.
+/// Returns the greatest distance, in counts, of a position command of the conventional circuit
+/// from the exact point of its sample, after `steps` steps at a radius of `radius` counts.
 ///
-/// An angle is off by a unit and a half, whatever came before it: the ramp and the end as words, and
-/// the angle itself. The matrix of a step is that of another angle, by half a unit for each angle of
-/// the CORDIC's table and two that are left, and has elements that are off: by sine and versine, of
-/// which each iteration rounds both coordinates down, by the axis and its products, and by their own
-/// rounding.
+/// The error of an angle is at most a unit and a half, independent of earlier samples: ramp and
+/// end as words, and the angle itself. The matrix of a step belongs to an angle that is off by
+/// half a unit for each entry of the CORDIC's table and two more. The elements of the matrix have
+/// errors of sine and versine, of which each iteration rounds both coordinates down, of the axis
+/// and its products, and of their own rounding.
 #[must_use]
 pub fn conventional_error(radius: f64, steps: u64, widths: &Widths, rounding: Rounding) -> f64 {
     let iterations = widths.coefficient as f64;

@@ -1,8 +1,8 @@
-//! The conventional method that the patent compares itself with, and what each costs a sample.
+//! Conventional method that the patent compares itself with, and the cost of both per sample.
 //!
-//! Conventionally the angle θ(t) itself accelerates, so that Δθ is another one at every sample, and
-//! the matrix with it: a sine, a cosine and Rodrigues' formula each time. In return it stays on the
-//! circle while it accelerates.
+//! Conventionally the angle θ(t) itself accelerates, so that Δθ and with it the matrix differ in
+//! every sample: a sine, a cosine and Rodrigues' formula each time. In return the points stay on
+//! the circle while accelerating.
 
 use super::prepare::Timing;
 use crate::circuits::arc_generator::{Blend, BlendPoint, Widths};
@@ -13,14 +13,14 @@ use crate::path::circle::Circle;
 use crate::path::vector::{Matrix, sub};
 use std::ops::{Add, AddAssign};
 
-/// Operations of floating point or of words.
+/// Operations on floating-point numbers or words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Operations {
-    /// Products.
+    /// Number of products.
     pub multiplications: u64,
-    /// Sums, differences and comparisons.
+    /// Number of sums, differences and comparisons.
     pub additions: u64,
-    /// Sines and cosines.
+    /// Number of sines and cosines.
     pub trigonometric: u64,
 }
 
@@ -41,7 +41,7 @@ impl AddAssign for Operations {
     }
 }
 
-/// Arithmetic that counts itself.
+/// Arithmetic that counts its operations.
 impl Operations {
     fn times(&mut self, a: f64, b: f64) -> f64 {
         self.multiplications += 1;
@@ -69,25 +69,25 @@ impl Operations {
     }
 }
 
-/// An arc from rest to rest by the conventional method.
+/// Arc from rest to rest by the conventional method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conventional {
     pub(super) circle: Circle,
-    /// v: speed between the ramps, in mm/s.
+    /// Speed v between the ramps, in mm/s.
     pub speed: f64,
-    /// Samples of each ramp.
+    /// Number of samples of each ramp.
     pub ramp: u64,
-    /// Samples between the ramps.
+    /// Number of samples between the ramps.
     pub samples: u64,
-    /// Angle that a ramp takes.
+    /// Angle of a ramp in radians.
     pub(super) ramp_angle: f64,
-    /// Angle of a sample between the ramps.
+    /// Angle per sample between the ramps, in radians.
     step: f64,
 }
 
 impl Conventional {
-    /// At a speed of at most `wanted` mm/s, so that a whole number of samples lies between the
-    /// ramps; one that is too short for the wanted speed is run slower.
+    /// Creates an arc with a speed of at most `wanted` mm/s for which a whole number of samples is
+    /// between the ramps; an arc that is too short for that speed is slower.
     #[must_use]
     pub fn new(circle: &Circle, wanted: f64, timing: &Timing) -> Self {
         let ramp = timing.blend_samples as f64;
@@ -104,7 +104,7 @@ impl Conventional {
         }
     }
 
-    /// The same without ramps: an angle of one size in every sample, so that the speed jumps at start
+    /// Creates an arc without ramps: equal angles in all samples, so that the speed jumps at start
     /// and stop.
     #[must_use]
     pub fn even(circle: &Circle, wanted: f64, timing: &Timing) -> Self {
@@ -122,7 +122,7 @@ impl Conventional {
         }
     }
 
-    /// Every sample from the start on, with what it costs; the start costs nothing.
+    /// Returns every sample from the start on, with its cost; the start costs nothing.
     pub fn samples(&self) -> impl Iterator<Item = (Point, Operations)> {
         let (mut vector, mut angle) = (sub(self.circle.start, self.circle.centre), 0.0);
         let last = 2 * self.ramp + self.samples;
@@ -138,7 +138,7 @@ impl Conventional {
         }))
     }
 
-    /// θ at a sample: the quartic, linear, the quartic in the mirror.
+    /// Returns θ at a sample: the quartic, linear, the mirrored quartic.
     fn angle(&self, sample: u64, count: &mut Operations) -> f64 {
         let to_end = 2 * self.ramp + self.samples - sample;
         if sample <= self.ramp {
@@ -152,7 +152,7 @@ impl Conventional {
         count.plus(self.ramp_angle, turned)
     }
 
-    /// (2 − h)h³ of the ramp's angle.
+    /// Returns (2 − h)h³ times the ramp's angle.
     fn ramp_up(&self, sample: u64, count: &mut Operations) -> f64 {
         let h = count.times(sample as f64, 1.0 / self.ramp as f64);
         let square = count.times(h, h);
@@ -163,7 +163,7 @@ impl Conventional {
     }
 }
 
-/// \[2\]: the matrix of a rotation, each product made once.
+/// Returns the matrix of a rotation (\[2\]), with each product computed once.
 fn rodrigues(axis: Point, angle: f64, count: &mut Operations) -> Matrix {
     let (sine, cosine) = (count.sine(angle), count.cosine(angle));
     let vers = count.minus(1.0, cosine);
@@ -190,7 +190,7 @@ fn rodrigues(axis: Point, angle: f64, count: &mut Operations) -> Matrix {
     ]
 }
 
-/// \[9\], \[4\]: the vector times the matrix, and the centre added.
+/// Multiplies the vector by the matrix and adds the centre (\[9\], \[4\]).
 fn rotate(matrix: &Matrix, vector: &mut Point, centre: Point, count: &mut Operations) -> Point {
     let old = *vector;
     *vector = matrix.map(|row| {
@@ -201,7 +201,8 @@ fn rotate(matrix: &Matrix, vector: &mut Point, centre: Point, count: &mut Operat
     std::array::from_fn(|k| count.plus(centre[k], vector[k]))
 }
 
-/// One sample of an arc as the patent has it: \[9\] with a matrix that was computed once.
+/// Computes one sample of an arc by the patent's method: \[9\] with a matrix that was computed
+/// once.
 #[must_use]
 pub fn rotation(matrix: &Matrix, vector: &mut Point, centre: Point) -> (Point, Operations) {
     let mut count = Operations::default();
@@ -209,7 +210,8 @@ pub fn rotation(matrix: &Matrix, vector: &mut Point, centre: Point) -> (Point, O
     (point, count)
 }
 
-/// The multiples of 1, h and (2 − h)h³ that \[5\] has for the points A⁻, A, A⁺: computed once.
+/// Returns the factors of 1, h and (2 − h)h³ in \[5\] for the points A⁻, A, A⁺, which are computed
+/// once.
 #[must_use]
 pub fn blend_terms(before: Point, corner: Point, behind: Point) -> [Point; 3] {
     let to_corner = sub(corner, before);
@@ -217,7 +219,7 @@ pub fn blend_terms(before: Point, corner: Point, behind: Point) -> [Point; 3] {
     [before, to_corner.map(|x| 2.0 * x), bend]
 }
 
-/// One sample of a blend as \[5\] is written, at h.
+/// Computes one sample of a blend as \[5\] is written, at h.
 #[must_use]
 pub fn blend(terms: &[Point; 3], h: f64) -> (Point, Operations) {
     let mut count = Operations::default();
@@ -234,14 +236,15 @@ pub fn blend(terms: &[Point; 3], h: f64) -> (Point, Operations) {
     (point, count)
 }
 
-/// One sample of a blend by differences, as the circuit has it: the adders, subtractors and
-/// comparators of the difference engines of all three coordinates, which work in one tick.
+/// Counts the operations of one sample of a blend by differences, as in the circuit: the adders,
+/// subtractors and comparators of the difference engines of all three coordinates, which work in
+/// one tick.
 ///
-/// The text's four additions a coordinate are columns here, each with a part that wraps at the
-/// modulus and carries into the whole.
+/// The text's four additions per coordinate are columns here, each with a fractional part that
+/// wraps at the modulus and carries into the integer part.
 ///
 /// # Errors
-/// The engine is no netlist.
+/// Returns an error if the engine cannot be elaborated.
 pub fn difference_engines() -> Result<Operations, EngineError> {
     let mut operations = Operations::default();
     for coordinate in 0..3 {
@@ -251,11 +254,12 @@ pub fn difference_engines() -> Result<Operations, EngineError> {
     Ok(operations)
 }
 
-/// One sample of a blend by products, as the circuit has it: h², its product with 2h − h², two products
-/// a coordinate; their sums, the centre's place taken by A⁻, and the adders of h.
+/// Counts the operations of one sample of a blend by products, as in the circuit: h², its product
+/// with 2h − h², two products per coordinate; their sums, with A⁻ in place of the centre, and the
+/// adders of h.
 ///
 /// # Errors
-/// The circuit is no netlist.
+/// Returns an error if the circuit cannot be elaborated.
 pub fn products() -> Result<Operations, EngineError> {
     let widths = Blend::Products.widths(Widths::FULL);
     let share = hdl::model(&BlendPoint { widths }.share())?;

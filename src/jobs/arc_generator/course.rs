@@ -1,4 +1,4 @@
-//! Measures of a segment, sample by sample, from the one where it begins.
+//! Measures of a segment, sample by sample, starting with its first.
 
 use super::measure::{ArcMeasured, BlendMeasured};
 use super::prepare::Timing;
@@ -7,7 +7,7 @@ use crate::input::Point;
 use crate::path::circle::Circle;
 use crate::path::vector::{add, distance, norm, scale};
 
-/// The segment under way.
+/// Current segment.
 #[derive(Debug)]
 pub(super) enum Course<'a> {
     Line,
@@ -16,7 +16,7 @@ pub(super) enum Course<'a> {
 }
 
 impl<'a> Course<'a> {
-    /// A segment at its first point.
+    /// Begins a segment at its first point.
     pub(super) fn begin(prepared: &'a Prepared, index: usize, point: Point) -> Self {
         let segment = &prepared.segments[index];
         match segment.shape {
@@ -64,20 +64,20 @@ impl<'a> Course<'a> {
     }
 }
 
-/// A blend under way.
+/// Current blend.
 #[derive(Debug)]
 pub(super) struct BlendCourse<'a> {
     prepared: &'a Prepared,
     segment: &'a Segment,
     corner: Point,
     measured: BlendMeasured,
-    /// Second differences by their share in the blend's shape, and the square of the shape.
+    /// Projection of the second differences on the blend's shape, and the square of the shape.
     along: Point,
     square: f64,
 }
 
 impl BlendCourse<'_> {
-    /// Takes the sample number `step` with the second difference that it ends, if there is one.
+    /// Adds sample `step` with the second difference that it ends, if there is one.
     pub(super) fn take(&mut self, step: u64, point: Point, second: Option<Point>) {
         let measured = &mut self.measured;
         let off = self.prepared.distance(self.segment, point);
@@ -92,7 +92,7 @@ impl BlendCourse<'_> {
         }
     }
 
-    /// Measures of the whole blend.
+    /// Returns the measures of the whole blend.
     pub(super) fn finish(&self, timing: &Timing) -> BlendMeasured {
         let ts = timing.sample_s;
         BlendMeasured {
@@ -101,9 +101,8 @@ impl BlendCourse<'_> {
         }
     }
 
-    /// The largest second difference of a blend, by what of the second differences of its samples is
-    /// in the shape that a blend has: those of x'' = 12S·h(1 − h), which a step of 1/n makes less by
-    /// 2S/n².
+    /// Returns the greatest second difference of a blend by projecting the samples' second
+    /// differences on the shape of x'' = 12S·h(1 − h), which a step of 1/n reduces by 2S/n².
     fn peak(&self) -> f64 {
         match self.square > 0.0 {
             true => norm(self.along) / self.square,
@@ -112,7 +111,7 @@ impl BlendCourse<'_> {
     }
 }
 
-/// An arc under way.
+/// Current arc.
 #[derive(Debug)]
 pub(super) struct ArcCourse<'a> {
     segment: &'a Segment,
@@ -121,14 +120,14 @@ pub(super) struct ArcCourse<'a> {
     wanted: f64,
     sample_s: f64,
     measured: ArcMeasured,
-    /// Sum of the squares of the radius errors.
+    /// Sum of the squared radius errors.
     squares: f64,
-    /// Way along the samples in mm.
+    /// Length along the samples in mm.
     way: f64,
 }
 
 impl ArcCourse<'_> {
-    /// Takes the next sample, `way` mm behind the one before.
+    /// Adds the next sample, `way` mm after the one before.
     pub(super) fn take(&mut self, point: Point, way: f64) {
         self.see(point);
         self.way += way;
@@ -145,7 +144,7 @@ impl ArcCourse<'_> {
         self.squares += outside * outside;
     }
 
-    /// Measures of the whole arc, which ends at `last`.
+    /// Returns the measures of the whole arc, which ends at `last`.
     pub(super) fn finish(&self, timing: &Timing, last: Point) -> ArcMeasured {
         let steps = self.segment.samples;
         ArcMeasured {

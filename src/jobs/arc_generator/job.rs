@@ -1,4 +1,5 @@
-//! A path on the arc generator: the control computer that feeds it, and the commands that come out.
+//! Run of a path on the arc generator: the control computer that feeds it, and the resulting
+//! commands.
 
 use super::joints::{Hand, JointSignals, Joints};
 use super::settings::Settings;
@@ -10,76 +11,77 @@ use crate::input::COORDINATES;
 use crate::path::record::Record;
 use crate::path::record_writer::RecordWriter;
 
-/// Records that wait before the path begins, where there are so many: the memory is full then.
+/// Number of records that wait before the path begins, if the path has that many: the memory is
+/// full then.
 const HEAD_START: usize = 16;
 
-/// The generator that plays a job.
+/// Returns the generator for the settings.
 #[must_use]
 pub fn arc_generator(settings: &Settings) -> ArcGenerator {
     ArcGenerator::new(settings.rounding, settings.blend)
 }
 
-/// The commands of one sampling time.
+/// Commands of one sampling time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Command {
-    /// The tick from which on they stand.
+    /// First tick of the commands.
     pub tick: u64,
-    /// x, y and z in counts.
+    /// Commands x, y and z in counts.
     pub counts: [i64; COORDINATES],
 }
 
-/// What came out of a path.
+/// Result of a path.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Played {
-    /// The ticks of the run.
+    /// Number of ticks of the run.
     pub ticks: u64,
-    /// A command for every sample, the start of the path first; none where they are told to a
-    /// caller as they come.
+    /// Command of every sample, with the start of the path first; empty if commands are passed to
+    /// a caller.
     pub commands: Vec<Command>,
-    /// Commands that came.
+    /// Number of commands.
     pub samples: u64,
-    /// The last of them.
+    /// Last command.
     pub last: Option<Command>,
-    /// A sampling time began before its point was ready.
+    /// True if a sampling time began before its point was ready.
     pub late: bool,
-    /// The path ended in motion.
+    /// True if the path ended in motion.
     pub starved: bool,
-    /// Most ticks from a sampling time to the next point.
+    /// Greatest numbers of ticks from a sampling time to the next point.
     pub needed: Needed,
 }
 
-/// Most ticks from a sampling time to the tick in which the next point is ready; 0 where there was
-/// none.
+/// Greatest numbers of ticks from a sampling time to the tick in which the next point is ready; 0
+/// if there was none.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Needed {
-    /// To one on the same line or blend.
+    /// To a point on the same line or blend.
     pub straight: u64,
-    /// To one on the same arc.
+    /// To a point on the same arc.
     pub arc: u64,
-    /// To the first of the next segment, which is fetched before.
+    /// To the first point of the next segment, which is fetched before.
     pub change: u64,
 }
 
 impl Needed {
-    /// To any.
+    /// Returns the greatest of all.
     #[must_use]
     pub fn most(&self) -> u64 {
         self.straight.max(self.arc).max(self.change)
     }
 }
 
-/// The control computer: it writes records as they find room, and takes down what comes.
+/// Control computer: writes records as space allows, and records the commands.
 pub(super) struct Bench<'a> {
     records: RecordWriter<'a>,
-    /// Records that are written before the path begins.
+    /// Number of records that are written before the path begins.
     waiting: usize,
     sample_ticks: u64,
     started: bool,
-    /// It gave nothing but what stands in this tick.
+    /// True if the inputs did not change in this tick.
     quiet: bool,
-    /// A start or a record was given in this tick.
+    /// True for each of start and record if it was given in this tick.
     given: [bool; 2],
-    /// The sampling time whose next point is made, and whether a segment is fetched for it.
+    /// Sampling time whose next point is computed, and true if a segment is fetched for it.
     making: Option<(u64, bool)>,
     over: bool,
     played: Played,
@@ -100,8 +102,8 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Whether it gives in the tick to come what it gave in this one, and takes nothing down, if what
-    /// it looks at does not change.
+    /// True if the next tick's inputs will be the same and nothing is recorded, provided that the
+    /// observed signals do not change.
     fn stands(&self) -> bool {
         self.quiet && !self.over && self.records.stands(usize::MAX)
     }
@@ -119,7 +121,7 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Takes down a tick; returns its command.
+    /// Records a tick; returns its command.
     fn take<C: Circuit>(&mut self, now: &Sample<'_, C>, see: &See) -> Option<Command> {
         let [started, pushed] = self.given;
         let (state, sampled) = (now.get(see.state), now.get(see.sampled));
@@ -155,7 +157,7 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// What is looked at.
+/// Observed signals.
 pub(super) struct See {
     ready: At<bool>,
     busy: At<bool>,
@@ -186,11 +188,11 @@ impl See {
     }
 }
 
-/// Plays a path on `circuit`, a sample every `sample_ticks` ticks, seen by `observer` too. An empty
-/// path makes no tick.
+/// Plays a path on `circuit`, a sample every `sample_ticks` ticks; `observer` sees it too. An
+/// empty path takes no tick.
 ///
 /// # Errors
-/// What `observer` objects to.
+/// Returns the error of `observer`.
 pub fn play(
     circuit: &ArcGenerator,
     records: &[Record],
@@ -203,12 +205,12 @@ pub fn play(
     Ok(Played { commands, ..played })
 }
 
-/// Does what [`play`] does, but tells every command to `each` as it comes and keeps none. The joints
-/// of `hand`, if there is one, stand beside the circuit: those of each command from the tick after
-/// it on, with which the run ends.
+/// Plays as [`play`] does, but passes every command to `each` and keeps none. The joints of
+/// `hand`, if given, are beside the circuit: those of each command from the tick after it on, with
+/// which the run ends.
 ///
 /// # Errors
-/// Errors of [`play`].
+/// Returns the errors of [`play`].
 pub fn play_each(
     circuit: &ArcGenerator,
     records: &[Record],
@@ -224,7 +226,7 @@ pub fn play_each(
 }
 
 impl Bench<'_> {
-    /// Plays its records on a circuit.
+    /// Plays the records on a circuit.
     pub(super) fn play<C: Circuit<In<Value> = generator::In<Value>>>(
         mut self,
         circuit: &C,
@@ -238,7 +240,7 @@ impl Bench<'_> {
             None => Simulator::watching(circuit, all, look)?,
             Some(_) => Simulator::watching_beside(circuit, &Joints, all, look)?,
         };
-        // Joints that no tick has shown.
+        // Joints that no tick has shown yet.
         let mut joints = hand.as_ref().map(|hand| hand.joints);
         let mut stopped = self.over;
         while !stopped {

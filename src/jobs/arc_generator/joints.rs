@@ -1,5 +1,5 @@
-//! The commands of a path as those of an arm's joints: step 12 of Fig. 5, which follows the
-//! generator on the control computer.
+//! Conversion of a path's commands to those of an arm's joints: step 12 of Fig. 5, which follows
+//! the generator on the control computer.
 
 use crate::hdl::{Beside, Value, View, signals};
 use crate::input::{COORDINATES, Point};
@@ -7,18 +7,18 @@ use crate::path::arm::{Arm, JOINTS, Pose};
 use crate::path::vector::distance;
 
 signals! { for Joints as _c;
-    /// The joints of an arm as they are commanded.
+    /// Commanded joints of an arm.
     pub struct JointSignals {
-        /// Turn of the base in counts.
+        /// Angle of the base in counts.
         pub base: I(40) as Analog,
         /// Elevation of the upper arm in counts.
         pub shoulder: I(40) as Analog,
-        /// Angle of the forearm beyond it in counts.
+        /// Angle of the forearm relative to the upper arm in counts.
         pub elbow: I(40) as Analog,
     }
 }
 
-/// An arm beside the circuit that commands its hand.
+/// Arm beside the circuit that commands its hand.
 #[derive(Debug, Clone, Copy)]
 pub struct Joints;
 
@@ -28,7 +28,7 @@ impl Beside for Joints {
 }
 
 impl JointSignals<Value> {
-    /// Of joints in counts.
+    /// Returns the signals of joints in counts.
     #[must_use]
     pub fn of([base, shoulder, elbow]: [i64; JOINTS]) -> Self {
         JointSignals {
@@ -39,29 +39,29 @@ impl JointSignals<Value> {
     }
 }
 
-/// A joint along a path.
+/// Motion of a joint along a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointReport {
-    /// The least and the largest angle, in degrees.
+    /// Least and greatest angle in degrees.
     pub range_deg: [f64; 2],
-    /// The largest speed from sample to sample, in degrees a second.
+    /// Greatest speed from sample to sample, in degrees per second.
     pub speed_deg_per_s: f64,
-    /// The largest acceleration over three samples, in degrees a second squared.
+    /// Greatest acceleration over three samples, in degrees per second squared.
     pub acceleration_deg_per_s2: f64,
 }
 
-/// What an arm's joints do along a path.
+/// Motion of an arm's joints along a path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Followed {
     /// Joints in counts at the first command.
     pub start: [i64; JOINTS],
-    /// Of every joint.
+    /// Motion of each joint.
     pub joints: [JointReport; JOINTS],
-    /// How far whole counts put the hand off its command, at most, in mm.
+    /// Greatest deviation of the hand from its command by rounding to counts, in mm.
     pub rounding_mm: f64,
 }
 
-/// The joints of an arm whose hand follows commands, one by one.
+/// Converter of commands of the hand to joints, one by one.
 #[derive(Debug, Clone)]
 pub struct Follower {
     arm: Arm,
@@ -69,7 +69,7 @@ pub struct Follower {
 }
 
 impl Follower {
-    /// One before its first command.
+    /// Creates a converter before its first command.
     #[must_use]
     pub fn new(arm: &Arm) -> Self {
         Follower {
@@ -81,7 +81,7 @@ impl Follower {
     /// Moves the hand to a command in mm; returns the joints in counts.
     ///
     /// # Errors
-    /// The arm cannot be in the pose; it stays where it was.
+    /// Returns the pose that the arm cannot take; the arm stays where it was.
     pub fn follow(&mut self, command: Point) -> Result<[i64; JOINTS], Pose> {
         let angles = self.arm.next(self.angles, command)?;
         self.angles = Some(angles);
@@ -90,7 +90,7 @@ impl Follower {
     }
 }
 
-/// An arm whose hand a circuit commands, beside it in the waves.
+/// Arm whose hand a circuit commands, beside it in the waves.
 #[derive(Debug, Clone)]
 pub struct Hand {
     follower: Follower,
@@ -100,8 +100,8 @@ pub struct Hand {
 }
 
 impl Hand {
-    /// An arm with its joints in counts before the first command, and the counts of a millimetre in
-    /// commands.
+    /// Creates an arm with its joints in counts before the first command, and the commands' counts
+    /// per millimetre.
     #[must_use]
     pub fn new(arm: &Arm, start: [i64; JOINTS], counts_per_mm: f64) -> Self {
         Hand {
@@ -111,14 +111,14 @@ impl Hand {
         }
     }
 
-    /// Follows a command in counts; where the arm cannot be in the pose, it stays where it was.
+    /// Follows a command in counts; if the arm cannot take the pose, it stays where it was.
     pub(super) fn follow(&mut self, command: [i64; COORDINATES]) {
         let point = command.map(|counts| counts as f64 / self.counts_per_mm);
         self.joints = self.follower.follow(point).unwrap_or(self.joints);
     }
 }
 
-/// What an arm's joints do, while commands come.
+/// Measurement of an arm's joints while commands come.
 #[derive(Debug)]
 pub struct Following {
     follower: Follower,
@@ -130,7 +130,7 @@ pub struct Following {
 }
 
 impl Following {
-    /// An arm before its first command; commands come `sample_s` apart.
+    /// Creates an arm before its first command; commands come `sample_s` apart.
     #[must_use]
     pub fn new(arm: &Arm, sample_s: f64) -> Self {
         Following {
@@ -143,10 +143,10 @@ impl Following {
         }
     }
 
-    /// Takes the next command in mm.
+    /// Adds the next command in mm.
     ///
     /// # Errors
-    /// The number of the command, if the arm cannot be in its pose.
+    /// Returns the number of the command and the pose, if the arm cannot take it.
     pub fn take(&mut self, command: Point) -> Result<(), (usize, Pose)> {
         let number = self.commands;
         let counts = self.follower.follow(command);
@@ -165,7 +165,7 @@ impl Following {
         Ok(())
     }
 
-    /// Result of all commands.
+    /// Returns the result of all commands.
     #[must_use]
     pub fn finish(self) -> Followed {
         Followed {
@@ -176,7 +176,7 @@ impl Following {
     }
 }
 
-/// A joint while commands come.
+/// Measurement of a joint while commands come.
 #[derive(Debug)]
 struct Motion {
     report: JointReport,

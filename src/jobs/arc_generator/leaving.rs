@@ -1,4 +1,4 @@
-//! Jumps at a joint of two segments: a polynomial on either side.
+//! Jumps at the joint of two segments, by a polynomial on each side.
 
 use super::measure::Joint;
 use super::prepare::Timing;
@@ -7,10 +7,10 @@ use crate::input::{COORDINATES, Point};
 use crate::path::vector::{angle_between, distance, scale};
 use std::collections::VecDeque;
 
-/// Degree of the polynomial that is laid through the samples at a joint: that of a blend.
+/// Degree of the polynomial through the samples at a joint: that of a blend.
 const DEGREE: usize = 4;
 
-/// A joint whose first segment has ended.
+/// Joint whose first segment has ended.
 #[derive(Debug)]
 pub(super) struct Leaving {
     segment: usize,
@@ -21,7 +21,8 @@ pub(super) struct Leaving {
 }
 
 impl Leaving {
-    /// Segment number `index` at its end, with the latest points, of a blend's `most` samples.
+    /// Creates a joint at the end of segment `index` from the latest points, up to the `most`
+    /// samples of a blend.
     pub(super) fn new(index: usize, ends: &Segment, recent: &VecDeque<Point>, most: u64) -> Self {
         let count = most.min(ends.samples) as usize + 1;
         let back: Vec<Point> = recent.iter().rev().take(count).copied().collect();
@@ -33,7 +34,7 @@ impl Leaving {
         }
     }
 
-    /// The joint, the latest points being those of the next segment from its beginning.
+    /// Returns the joint; the latest points are those of the next segment from its start.
     pub(super) fn joint(
         &self,
         begins: &Segment,
@@ -43,7 +44,7 @@ impl Leaving {
         let ts = timing.sample_s;
         let count = timing.blend_samples.min(begins.samples) as usize + 1;
         let points: Vec<Point> = recent.range(recent.len() - count..).copied().collect();
-        // Backwards the velocity has the other sign.
+        // Backwards, the velocity has the other sign.
         let [leaves, curves_before] = self.derivatives;
         let [enters, curves_behind] = derivatives(&points, begins.kind());
         let (leaves, enters) = (scale(leaves, -1.0 / ts), scale(enters, 1.0 / ts));
@@ -61,8 +62,8 @@ impl Leaving {
     }
 }
 
-/// First and second derivative by the sample number at the first of the points, of the polynomial
-/// of least squares: of degree 1 on a line, else 4, or as high as there are points.
+/// Returns first and second derivative by the sample number at the first of the points, of the
+/// least-squares polynomial: of degree 1 on a line, else 4, limited by the number of points.
 fn derivatives(points: &[Point], kind: Kind) -> [Point; 2] {
     let degree = match kind {
         Kind::Line => 1,
@@ -71,7 +72,7 @@ fn derivatives(points: &[Point], kind: Kind) -> [Point; 2] {
     let degree = degree.min(points.len() - 1);
     let span = (points.len() - 1) as f64;
     let coordinates: [[f64; 2]; COORDINATES] = std::array::from_fn(|k| {
-        // From its first value, for large coordinates not to cost digits.
+        // Relative to the first value, so that large coordinates do not lose digits.
         let values = points.iter().map(|p| p[k] - points[0][k]);
         let c = fit(values, span, degree);
         // x = Σ c·u^j with u = sample/span.
@@ -80,8 +81,8 @@ fn derivatives(points: &[Point], kind: Kind) -> [Point; 2] {
     std::array::from_fn(|order| coordinates.map(|c| c[order]))
 }
 
-/// Coefficients of the polynomial of least squares in sample/span: the normal equations, which are
-/// well enough conditioned at such a degree.
+/// Returns the coefficients of the least-squares polynomial in sample/span, by the normal
+/// equations, which are well-conditioned enough at this degree.
 fn fit(values: impl Iterator<Item = f64>, span: f64, degree: usize) -> [f64; DEGREE + 1] {
     let mut rows = [[0.0; DEGREE + 2]; DEGREE + 1];
     for (sample, value) in values.enumerate() {
@@ -94,7 +95,7 @@ fn fit(values: impl Iterator<Item = f64>, span: f64, degree: usize) -> [f64; DEG
             row[DEGREE + 1] += power * value;
         }
     }
-    // Symmetric and positive: the diagonal is always a pivot.
+    // Symmetric and positive: every diagonal element is a pivot.
     let size = degree + 1;
     for pivot in 0..size {
         for row in 0..size {

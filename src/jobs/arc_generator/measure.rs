@@ -1,4 +1,4 @@
-//! What came out: measured from position commands, sample by sample.
+//! Measures of a run, from its position commands, sample by sample.
 
 use super::course::Course;
 use super::leaving::Leaving;
@@ -7,89 +7,89 @@ use crate::input::{COORDINATES, Point};
 use crate::path::vector::{distance, norm, sub};
 use std::collections::VecDeque;
 
-/// Measured from the samples of a run.
+/// Measures from the samples of a run.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Measured {
-    /// Largest distance of a sample from its exact point, in mm.
+    /// Greatest distance of a sample from its exact point, in mm.
     pub largest_error: f64,
-    /// The arcs, in order.
+    /// Arcs in order.
     pub arcs: Vec<ArcMeasured>,
-    /// The blends, in order.
+    /// Blends in order.
     pub blends: Vec<BlendMeasured>,
-    /// The joints of segments, in order.
+    /// Joints of segments in order.
     pub joints: Vec<Joint>,
 }
 
-/// A sample as it comes.
+/// Measures of one sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SampleMeasured {
-    /// Its number.
+    /// Number of the sample.
     pub sample: u64,
-    /// Its segment. A sample between two belongs to the former.
+    /// Segment of the sample; a sample between two belongs to the first.
     pub segment: usize,
-    /// Its point, in mm.
+    /// Point in mm.
     pub point: Point,
-    /// Its distance from its exact point, in mm.
+    /// Distance from its exact point, in mm.
     pub error: f64,
-    /// Speed in mm/s from the sample before to it.
+    /// Speed from the sample before, in mm/s.
     pub speed: Option<f64>,
-    /// Acceleration in mm/s² at the sample before.
+    /// Acceleration at the sample before, in mm/s².
     pub acceleration: Option<f64>,
 }
 
-/// Measured on the samples of a rotation.
+/// Measures of a rotation's samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArcMeasured {
-    /// The segment.
+    /// Index of the segment.
     pub segment: usize,
-    /// Least and largest error of the radius, in mm, outwards positive.
+    /// Least and greatest error of the radius in mm, outwards positive.
     pub radius_errors: [f64; 2],
-    /// Largest distance from the arc's plane, in mm.
+    /// Greatest distance from the arc's plane, in mm.
     pub off_plane: f64,
-    /// Distance of its last sample from C⁻, in mm.
+    /// Distance of the last sample from C⁻, in mm.
     pub end_error: f64,
     /// Mean speed along the arc, in mm/s.
     pub speed: f64,
-    /// Root of the mean square of the radius error, in mm.
+    /// Root mean square of the radius error, in mm.
     pub radius_rms: f64,
-    /// Largest deviation from the piece's speed from sample to sample, in mm/s.
+    /// Greatest deviation from the piece's speed from sample to sample, in mm/s.
     pub speed_deviation: f64,
 }
 
-/// Measured on the samples of a blend.
+/// Measures of a blend's samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BlendMeasured {
-    /// The segment.
+    /// Index of the segment.
     pub segment: usize,
-    /// Largest distance from the lines and arcs that it belongs to, in mm.
+    /// Greatest distance from the lines and arcs that it belongs to, in mm.
     pub off_path: f64,
     /// Least distance from the taught point, in mm.
     pub from_corner: f64,
-    /// Largest acceleration, in mm/s²: that of the parabola of least squares through the second
-    /// differences of the samples. One of them alone may be off by two counts over Ts² for rounding.
+    /// Greatest acceleration in mm/s², by a least-squares parabola through the second differences
+    /// of the samples. A single one may be off by two counts over Ts² due to rounding.
     pub peak_acceleration: f64,
 }
 
-/// What jumps where a segment ends and the next begins. Each side is a polynomial of degree 4 of
-/// least squares through the segment's samples next to the joint, as many as a blend has.
+/// Jumps between two consecutive segments. Each side is a least-squares polynomial of degree 4
+/// through the segment's samples next to the joint, up to the number of a blend's samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Joint {
-    /// The segment that ends.
+    /// Index of the segment that ends.
     pub segment: usize,
-    /// The sample.
+    /// Number of the sample.
     pub sample: u64,
-    /// Angle between the velocities before and after, in radians; 0 if it rests.
+    /// Angle between the velocities before and after, in radians; 0 at rest.
     pub direction_jump: f64,
-    /// Length of the difference of both velocities, in mm/s.
+    /// Length of the velocity difference, in mm/s.
     pub velocity_jump: f64,
-    /// Length of the difference of both accelerations, in mm/s².
+    /// Length of the acceleration difference, in mm/s².
     pub acceleration_jump: f64,
 }
 
 impl Measured {
     /// Measures position commands in counts, one for each sample of the path.
     ///
-    /// `None` unless there are as many as the path has.
+    /// Returns `None` if their number differs from the path's.
     #[must_use]
     pub fn of(
         prepared: &Prepared,
@@ -104,24 +104,24 @@ impl Measured {
     }
 }
 
-/// Measures position commands while they come.
+/// Measurement of position commands while they come.
 #[derive(Debug)]
 pub struct Measuring<'a> {
     prepared: &'a Prepared,
     counts_per_mm: f64,
     measured: Measured,
     samples: u64,
-    /// The segment under way.
+    /// Index of the current segment.
     segment: usize,
     course: Course<'a>,
-    /// The latest points, as many as a joint is measured with on one side.
+    /// Latest points, as many as needed to measure one side of a joint.
     recent: VecDeque<Point>,
-    /// The joint whose second side is under way.
+    /// Joint whose second side is being measured.
     leaving: Option<Leaving>,
 }
 
 impl<'a> Measuring<'a> {
-    /// One before the first command.
+    /// Creates a measurement before the first command.
     #[must_use]
     pub fn new(prepared: &'a Prepared, counts_per_mm: f64) -> Self {
         Measuring {
@@ -136,7 +136,7 @@ impl<'a> Measuring<'a> {
         }
     }
 
-    /// Takes the next command in counts; `None` behind the last sample of the path.
+    /// Adds the next command in counts; returns `None` after the last sample of the path.
     pub fn take(&mut self, counts: [i64; COORDINATES]) -> Option<SampleMeasured> {
         let (prepared, sample) = (self.prepared, self.samples);
         self.samples += 1;
@@ -146,7 +146,7 @@ impl<'a> Measuring<'a> {
             segment = prepared.segments.get(self.segment)?;
         }
         let point = counts.map(|counts| counts as f64 / self.counts_per_mm);
-        // A joint is measured with a sample more than a blend has.
+        // A joint needs one sample more than a blend has.
         if self.recent.len() as u64 > prepared.timing.blend_samples.max(2) {
             self.recent.pop_front();
         }
@@ -169,13 +169,14 @@ impl<'a> Measuring<'a> {
         })
     }
 
-    /// Measures of the path, all commands being taken; `None` unless there were as many as it has.
+    /// Returns the measures of the path after all commands; `None` if their number differs from
+    /// the path's.
     #[must_use]
     pub fn finish(self) -> Option<Measured> {
         (self.samples == self.prepared.samples()).then_some(self.measured)
     }
 
-    /// Measures the segment that a sample belongs to, and at its end begins the next.
+    /// Measures the segment of a sample, and at its end begins the next.
     fn follow(&mut self, sample: u64, point: Point, way: f64, second: Option<Point>) {
         let (prepared, index) = (self.prepared, self.segment);
         let segment = &prepared.segments[index];

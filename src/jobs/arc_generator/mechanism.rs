@@ -1,7 +1,7 @@
-//! What position commands make of an elastic mechanism.
+//! Response of an elastic mechanism to position commands.
 //!
-//! JPH0743606B2 has ramps for its sake: where the angle grows by the same from the first sample on,
-//! the speed along the arc jumps at start and stop, and the mechanism vibrates.
+//! The ramps of JPH0743606B2 serve the mechanism: with equal angles from the first sample on, the
+//! speed along the arc jumps at start and stop, and the mechanism vibrates.
 
 use crate::input::Point;
 use crate::path::vector::{dot, sub};
@@ -9,36 +9,36 @@ use crate::settings::{Place, SettingError, within};
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
-/// Natural frequencies that a mechanism may have, in Hz.
+/// Allowed natural frequencies of a mechanism, in Hz.
 pub const FREQUENCY_RANGE_HZ: RangeInclusive<f64> = 0.1..=1000.0;
-/// Dampings that it may have, as a share of the critical one.
+/// Allowed damping ratios.
 pub const DAMPING_RANGE: RangeInclusive<f64> = 0.0..=0.9;
-/// How often it is looked at between two commands, and after the last in each of its periods.
+/// Number of evaluations between two commands and, after the last, per period.
 const LOOKS: u32 = 16;
 
-/// A mass that hangs on its command by a spring and a damper, alike in x, y and z.
+/// Mass connected to its command by a spring and a damper, equal in x, y and z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mechanism {
-    /// Its natural frequency.
+    /// Natural frequency in Hz.
     pub frequency_hz: f64,
-    /// Its damping, as a share of the critical one.
+    /// Damping ratio.
     pub damping: f64,
 }
 
-/// What commands make of it.
+/// Vibration caused by commands.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Vibration {
-    /// How far it is from its command at most, in mm, until the last command.
+    /// Greatest distance from the command until the last command, in mm.
     pub moving_mm: f64,
-    /// The same from then on.
+    /// Greatest distance from the last command on, in mm.
     pub rest_mm: f64,
 }
 
 impl Mechanism {
-    /// Checks its figures.
+    /// Checks every field.
     ///
     /// # Errors
-    /// Names the first field at fault, its value and what is allowed.
+    /// Returns an error that names the first field at fault, its value and the allowed range.
     pub fn validate(&self) -> Result<(), SettingError> {
         within("frequency_hz", self.frequency_hz, &FREQUENCY_RANGE_HZ)
             .and_then(|()| within("damping", self.damping, &DAMPING_RANGE))
@@ -46,16 +46,16 @@ impl Mechanism {
     }
 }
 
-/// Vibration of a mechanism under commands that come one by one, on a line between two; before the
-/// first it is at rest, after the last its command is.
+/// Vibration of a mechanism under commands that come one by one, with linear motion between two.
+/// It is at rest before the first; after the last the command rests.
 ///
-/// What it is off its command by swings freely but for the commands' changes of speed, by which
-/// its own speed changes: no integration, and no error but that it is looked at 16 times between
-/// two commands.
+/// The deviation from the command oscillates freely, except for the commands' changes of speed,
+/// which change its rate. There is no integration error; the only error is evaluation at 16 times
+/// between two commands.
 #[derive(Debug)]
 pub struct Vibrating {
     sample_s: f64,
-    /// From one look to the next: between two commands, and after the last.
+    /// Steps between evaluations: between two commands, and after the last.
     moving: Free,
     resting: Free,
     last: Option<Point>,
@@ -65,7 +65,7 @@ pub struct Vibrating {
 }
 
 impl Vibrating {
-    /// One whose commands in mm come `sample_s` seconds apart.
+    /// Creates a vibration whose commands in mm come `sample_s` seconds apart.
     #[must_use]
     pub fn new(mechanism: &Mechanism, sample_s: f64) -> Self {
         let looks = f64::from(LOOKS);
@@ -80,7 +80,7 @@ impl Vibrating {
         }
     }
 
-    /// Takes the next command.
+    /// Adds the next command.
     pub fn take(&mut self, point: Point) {
         if let Some(last) = self.last.replace(point) {
             let next = sub(point, last).map(|mm| mm / self.sample_s);
@@ -93,7 +93,7 @@ impl Vibrating {
         }
     }
 
-    /// Vibration, the last command being taken.
+    /// Returns the vibration after the last command.
     #[must_use]
     pub fn finish(mut self) -> Vibration {
         self.swing.push(self.speed);
@@ -109,7 +109,7 @@ impl Vibrating {
     }
 }
 
-/// Largest change of speed from one command to the next: at rest before the first and after the
+/// Greatest change of speed from one command to the next, with rest before the first and after the
 /// last.
 #[derive(Debug, Default)]
 pub struct SpeedChange {
@@ -119,14 +119,14 @@ pub struct SpeedChange {
 }
 
 impl SpeedChange {
-    /// Takes the next command, in mm.
+    /// Adds the next command in mm.
     pub fn take(&mut self, point: Point) {
         if let Some(last) = self.last.replace(point) {
             self.changes_to(sub(point, last));
         }
     }
 
-    /// Change in mm/s of commands that came `sample_s` seconds apart.
+    /// Returns the change in mm/s of commands that came `sample_s` seconds apart.
     #[must_use]
     pub fn finish(mut self, sample_s: f64) -> f64 {
         self.changes_to([0.0; 3]);
@@ -143,7 +143,7 @@ fn length(vector: Point) -> f64 {
     dot(vector, vector).sqrt()
 }
 
-/// By how much the mass is off its command, and how fast that grows.
+/// Deviation of the mass from its command, and its rate.
 #[derive(Debug, Default)]
 struct Swing {
     off: Point,
@@ -169,7 +169,7 @@ impl Swing {
     }
 }
 
-/// How the mass swings in so many seconds: off and rate of then from those of now.
+/// Free oscillation over a fixed time: next deviation and rate from the current ones.
 #[derive(Debug)]
 struct Free([[f64; 2]; 2]);
 
@@ -220,7 +220,7 @@ mod tests {
         assert!((is - wanted).abs() <= share * wanted, "{is} for {wanted}");
     }
 
-    /// 0.2 mm a sample along an axis in space.
+    /// Returns a line of 0.2 mm per sample along an axis in space.
     fn line(samples: u32) -> Vec<Point> {
         (0..=samples)
             .map(|k| [0.36, 0.48, 0.8].map(|axis| axis * 0.2 * f64::from(k)))
@@ -231,8 +231,8 @@ mod tests {
     fn a_jump_of_speed_makes_it_swing_by_speed_over_frequency() {
         for frequency in [1.0, 3.0, 8.0] {
             let natural = TAU * frequency;
-            // Whole periods later the stop takes out what the start has made; half a period more,
-            // and it doubles it.
+            // After whole periods the stop cancels the vibration of the start; half a period later
+            // it doubles it.
             let period = (1.0 / (frequency * SAMPLE_S)).round() as u32;
             let whole = mechanism(1.0 / (f64::from(period) * SAMPLE_S), 0.0);
             let out = vibration(&whole, &line(3 * period));
@@ -242,13 +242,13 @@ mod tests {
                 let double = vibration(&whole, &line(3 * period + period / 2));
                 near(double.rest_mm, 40.0 / (TAU * whole.frequency_hz), 2e-2);
             }
-            // In a damped one the first swing is a quarter of a period late.
+            // In a damped mechanism the first oscillation is a quarter of a period late.
             let damping = 0.2f64;
             let damped = vibration(&mechanism(frequency, damping), &line(1000));
             let angle = damping.acos();
             let share = (-damping / (1.0 - damping * damping).sqrt() * angle).exp();
             near(damped.moving_mm, 20.0 / natural * share, 5e-3);
-            // What the start has made is gone: the stop makes the same.
+            // The vibration of the start has decayed: the stop causes the same.
             near(damped.rest_mm, damped.moving_mm, 2e-2);
         }
     }
@@ -257,11 +257,11 @@ mod tests {
     fn a_steady_acceleration_bends_it_by_acceleration_over_frequency_squared() {
         let parabola = |k: u32| [0.0, 0.5 * 100.0 * (f64::from(k) * SAMPLE_S).powi(2), 0.0];
         let points: Vec<Point> = (0..=400).map(parabola).collect();
-        // Damped so far that it does not swing over; the speed changes in steps of 1 mm/s.
+        // Damped enough not to overshoot; the speed changes in steps of 1 mm/s.
         let vibration = vibration(&mechanism(2.0, 0.9), &points);
         near(vibration.moving_mm, 100.0 / (TAU * 2.0).powi(2), 2e-2);
         near(largest_speed_change(&points[..2]), 0.5, 1e-12);
-        // It stops from 399.5 mm/s.
+        // Stops from 399.5 mm/s.
         near(largest_speed_change(&points), 399.5, 1e-9);
     }
 

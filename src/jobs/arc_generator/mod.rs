@@ -1,11 +1,11 @@
 //! A path on the arc generator: prepared as records, played, and measured.
 //!
-//! [`prepare`](mod@prepare) ([pieces](crate::path::pieces) as segments), [`record`] (segments as
-//! words), [`bounds`] (how far the rotation may be off), [`mod@reference`] (the same samples by
-//! division), [`products`] (blends and lines by products), [`conventional`] (what the patent compares
-//! itself with), [`job`] (a path on the circuit), [`beside`] (its arcs on the conventional circuit),
-//! [`measure`] (what came out), [`joints`] (the commands as those of an arm's joints), [`mechanism`]
-//! (what they make of an elastic one).
+//! [`prepare`](mod@prepare) ([pieces](crate::path::pieces) to segments), [`record`] (segments to
+//! words), [`bounds`] (error bounds of the rotation), [`mod@reference`] (the same samples by
+//! division), [`products`] (blends and lines by products), [`conventional`] (the patent's
+//! comparison method), [`job`] (a path on the circuit), [`beside`] (its arcs on the conventional
+//! circuit), [`measure`] (measures of the commands), [`joints`] (commands of an arm's joints),
+//! [`mechanism`] (response of an elastic mechanism).
 
 pub mod beside;
 pub mod bounds;

@@ -1,5 +1,5 @@
-//! Pieces as segments: every piece gets the speed at which a whole number of samples lies between
-//! its blends.
+//! Conversion of pieces to segments: every piece gets a speed for which a whole number of samples
+//! is between its blends.
 
 use super::prepared::{ArcReport, PieceReport, Prepared, Segment, Shape};
 use super::settings::ShortPieces;
@@ -9,42 +9,43 @@ use crate::path::error::{PathError, Reason};
 use crate::path::pieces::Piece;
 use crate::path::vector::{add, angle_between, scale, sub, unit};
 
-/// Speeds that exceed what fits by no more than this part are taken for it: the rounding of numbers
+/// Relative excess over the greatest speed that still counts as that speed: rounding of numbers
 /// that were printed and read again.
 const ROUNDING: f64 = 1e-9;
 
-/// The times of a path.
+/// Times of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timing {
-    /// Ts in seconds.
+    /// Sampling time Ts in seconds.
     pub sample_s: f64,
-    /// M = 2ta/Ts, even.
+    /// Samples of a blend M = 2ta/Ts; even.
     pub blend_samples: u64,
-    /// Largest turn between two pieces that are joined without a stop, in radians.
+    /// Greatest angle between two pieces that are joined without a stop, in radians.
     pub corner: f64,
-    /// What becomes of a piece that is too short or too tight for its speed.
+    /// Handling of a piece that is too short or too tight for its speed.
     pub short_pieces: ShortPieces,
-    /// The most samples that a segment may have.
+    /// Greatest number of samples of a segment.
     pub most_samples: u64,
 }
 
 impl Timing {
-    /// ta in seconds.
+    /// Returns ta in seconds.
     #[must_use]
     pub fn half_blend_s(&self) -> f64 {
         self.sample_s * self.blend_samples as f64 / 2.0
     }
 }
 
-/// Makes the segments of a path that begins at `start` at rest and ends at rest.
+/// Makes the segments of a path that begins at rest at `start` and ends at rest.
 ///
-/// A line of length L has the speed v = L/(Ts(N + M)) with the least N that keeps it within what is
-/// wanted; on an arc θ − 2φ = N·v·Ts/R with sin(φ/2) = v·ta/2R. Two pieces that meet at no more
-/// than the corner's turn are joined by one blend, others by a stop.
+/// A line of length L has the speed v = L/(Ts(N + M)) with the least N that keeps it within the
+/// requested speed; on an arc θ − 2φ = N·v·Ts/R with sin(φ/2) = v·ta/2R. Two pieces that meet at
+/// an angle within the corner limit are joined by one blend, others by a stop.
 ///
 /// # Errors
-/// A piece without length, speed or number; one whose blends overlap or reach too far around the
-/// arc at the wanted speed; one of too many samples; an arc that is off the path.
+/// Returns an error for a piece without length, speed or number; one whose blends overlap or
+/// extend too far around the arc at the requested speed; one with too many samples; an arc that
+/// does not meet the path.
 pub fn prepare(start: Point, pieces: &[Piece], timing: &Timing) -> Result<Prepared, PathError> {
     let mut from = start;
     let mut legs = Vec::with_capacity(pieces.len());
@@ -71,7 +72,7 @@ pub fn prepare(start: Point, pieces: &[Piece], timing: &Timing) -> Result<Prepar
     })
 }
 
-/// The segments of all pieces, each between two blends.
+/// Returns the segments of all pieces, each between two blends.
 fn join(legs: &[PieceReport], timing: &Timing) -> Vec<Segment> {
     let mut segments = Vec::with_capacity(2 * legs.len() + 1);
     let mut at = 0;
@@ -125,7 +126,7 @@ fn join(legs: &[PieceReport], timing: &Timing) -> Vec<Segment> {
     segments
 }
 
-/// Speed and samples of a piece.
+/// Returns speed and samples of a piece.
 fn leg(from: Point, piece: &Piece, timing: &Timing) -> Result<PieceReport, Reason> {
     piece.check(from)?;
     let arc = piece.course.arc()?;
@@ -136,8 +137,8 @@ fn leg(from: Point, piece: &Piece, timing: &Timing) -> Result<PieceReport, Reaso
     }
     let (sample, half_blend) = (timing.sample_s, timing.half_blend_s());
     let speed = fitting(piece.speed, arc, length, timing)?;
-    // Samples between the blends at that speed: at most by so much more than a whole number as
-    // rounding makes.
+    // Samples between the blends at that speed, with a tolerance for rounding above a whole
+    // number.
     let samples = match arc {
         None => length / (speed * sample) - timing.blend_samples as f64,
         Some(circle) => {
@@ -173,7 +174,7 @@ fn leg(from: Point, piece: &Piece, timing: &Timing) -> Result<PieceReport, Reaso
     })
 }
 
-/// The wanted speed, or the largest that fits.
+/// Returns the requested speed, or the greatest that fits.
 fn fitting(speed: f64, arc: Option<&Circle>, length: f64, timing: &Timing) -> Result<f64, Reason> {
     let half_blend = timing.half_blend_s();
     // With one sample between the blends.
@@ -212,13 +213,13 @@ fn fitting(speed: f64, arc: Option<&Circle>, length: f64, timing: &Timing) -> Re
     })
 }
 
-/// φ: angle of a chord.
+/// Returns φ, the angle of a chord.
 fn blend_angle(circle: &Circle, chord: f64) -> f64 {
     2.0 * (chord / (2.0 * circle.radius)).min(1.0).asin()
 }
 
-/// The speed at which `samples` lie between the blends of an arc. What is left of the angle falls
-/// with the speed, so there is exactly one.
+/// Returns the speed for which `samples` are between the blends of an arc. The remaining angle
+/// decreases with the speed, so there is exactly one.
 fn arc_speed(circle: &Circle, samples: f64, timing: &Timing) -> f64 {
     let Circle { radius, angle, .. } = *circle;
     let left = |speed: f64| {
@@ -248,14 +249,14 @@ fn arc_report(circle: &Circle, speed: f64, reach: f64, samples: f64) -> ArcRepor
         step: (circle.angle - 2.0 * blend_angle) / samples,
         direction_jump: blend_angle / 2.0,
         acceleration_jump: speed * speed / circle.radius,
-        // 1 − cos without its cancellation.
+        // Computes 1 − cos without cancellation.
         blend_distance: 2.0 * circle.radius * sagitta * sagitta,
         blend_distance_estimate: reach * reach / (8.0 * circle.radius),
     }
 }
 
 impl PieceReport {
-    /// A⁺ and C⁻: where its first blend ends and its last begins.
+    /// Returns A⁺ and C⁻, the end of its first blend and the start of its last.
     #[must_use]
     pub fn between_blends(&self) -> [Point; 2] {
         match &self.arc {
@@ -268,7 +269,7 @@ impl PieceReport {
         }
     }
 
-    /// Direction of motion at its start and at its end.
+    /// Returns the directions of motion at start and end.
     #[must_use]
     pub fn directions(&self) -> [Point; 2] {
         self.course.directions(self.from, self.to)

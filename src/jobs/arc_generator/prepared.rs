@@ -1,4 +1,4 @@
-//! A path as it is generated: segments, one after the other, each of a whole number of samples.
+//! Prepared path: consecutive segments, each of a whole number of samples.
 
 use super::prepare::Timing;
 use crate::input::Point;
@@ -6,136 +6,136 @@ use crate::path::circle::Circle;
 use crate::path::pieces::Course;
 use crate::path::vector::{distance, norm, sub};
 
-/// What a path became.
+/// Prepared path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prepared {
-    /// The segments in order. Each begins at the last sample of the one before.
+    /// Segments in order; each begins at the last sample of the one before.
     pub segments: Vec<Segment>,
-    /// The pieces they came from.
+    /// Pieces of the path.
     pub pieces: Vec<PieceReport>,
-    /// The times it was made with.
+    /// Times of the path.
     pub timing: Timing,
 }
 
-/// A segment of the path.
+/// Segment of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
-    /// Its points.
+    /// Geometry.
     pub shape: Shape,
-    /// How many samples it has after the one it begins at, 1 or more.
+    /// Number of samples after the one at which it begins, at least 1.
     pub samples: u64,
-    /// The sample it begins at; sample 0 is the start of the path.
+    /// Sample at which it begins; sample 0 is the start of the path.
     pub first_sample: u64,
-    /// The piece it belongs to; for a blend from one piece to the next the former.
+    /// Index of its piece; for a blend between two pieces the first.
     pub piece: usize,
-    /// The piece that it blends into.
+    /// Index of the piece into which it blends.
     pub next_piece: Option<usize>,
-    /// It ends at rest.
+    /// True if it ends at rest.
     pub ends_at_rest: bool,
 }
 
-/// The points of a segment.
+/// Geometry of a segment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shape {
-    /// \[5\], \[10\]: a quartic from one point to another, past the corner between them.
+    /// Quartic from one point to another, past the corner between them (\[5\], \[10\]).
     Blend {
-        /// A⁻: where it begins; the corner itself if that is at rest.
+        /// Start A⁻; the corner itself if that is at rest.
         before: Point,
-        /// A: the taught point.
+        /// Taught point A.
         corner: Point,
-        /// A⁺: where it ends; the corner itself if that is at rest.
+        /// End A⁺; the corner itself if that is at rest.
         behind: Point,
     },
-    /// A straight line at constant speed.
+    /// Straight line at constant speed.
     Line {
-        /// Where it begins.
+        /// Start.
         from: Point,
-        /// Where it ends.
+        /// End.
         to: Point,
     },
-    /// A rotation at constant speed.
+    /// Rotation at constant speed.
     Arc {
-        /// The whole arc of the piece.
+        /// Whole arc of the piece.
         circle: Circle,
-        /// φ: where the segment begins on it.
+        /// Angle φ on it at which the segment begins.
         from: f64,
-        /// Δθ: angle of a sample.
+        /// Angle Δθ per sample.
         step: f64,
     },
 }
 
-/// Kinds of segments, by the number that a record has for them.
+/// Kind of a segment, numbered as in a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// A quartic.
+    /// Quartic.
     Blend = 0,
     /// Straight.
     Line = 1,
-    /// A rotation.
+    /// Rotation.
     Arc = 2,
 }
 
-/// What became of a piece.
+/// Report on a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PieceReport {
-    /// Line of the input it stands in.
+    /// Line of the piece in the input.
     pub line: Option<usize>,
-    /// Straight or on an arc.
+    /// Line or arc.
     pub course: Course,
-    /// Where it begins.
+    /// Start.
     pub from: Point,
-    /// Where it ends.
+    /// End.
     pub to: Point,
-    /// Its length in mm.
+    /// Length in mm.
     pub length: f64,
-    /// Vs: the speed that was wanted, in mm/s.
+    /// Requested speed Vs in mm/s.
     pub wanted: f64,
-    /// v: its speed, in mm/s.
+    /// Speed v in mm/s.
     pub speed: f64,
-    /// N: samples between its blends.
+    /// Number N of samples between its blends.
     pub samples: u64,
-    /// v·ta: how far from its ends the blends reach, in a straight line.
+    /// Distance v·ta of the blends' ends from its ends, in a straight line, in mm.
     pub reach: f64,
-    /// What an arc has besides.
+    /// Additional values of an arc.
     pub arc: Option<ArcReport>,
 }
 
-/// What became of an arc.
+/// Report on an arc.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArcReport {
     /// Centre, axis, radius and angle.
     pub circle: Circle,
-    /// φ: angle of the arc that a blend takes at either end.
+    /// Angle φ that a blend takes at each end, in radians.
     pub blend_angle: f64,
-    /// Δθ: angle of a sample.
+    /// Angle Δθ per sample, in radians.
     pub step: f64,
-    /// How much the direction of the velocity jumps at A⁺ and C⁻: asin(v·ta/2R).
+    /// Jump of the velocity's direction at A⁺ and C⁻: asin(v·ta/2R), in radians.
     pub direction_jump: f64,
-    /// How much the acceleration jumps there, in mm/s²: v²/R.
+    /// Jump of the acceleration there: v²/R, in mm/s².
     pub acceleration_jump: f64,
-    /// How far a blend from or to rest leaves the arc, in mm: R(1 − cos(φ/2)).
+    /// Deviation from the arc of a blend from or to rest: R(1 − cos(φ/2)), in mm.
     pub blend_distance: f64,
-    /// The same in the common approximation: (v·ta)²/8R.
+    /// Common approximation of that deviation: (v·ta)²/8R, in mm.
     pub blend_distance_estimate: f64,
 }
 
-/// Where a sample is.
+/// Position of a sample in the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place {
-    /// Its segment. A sample between two belongs to the former.
+    /// Index of its segment; a sample between two belongs to the first.
     pub segment: usize,
-    /// Its number in the segment: 1 to the segment's samples; 0 for the start of the path only.
+    /// Number in the segment, from 1; 0 only for the start of the path.
     pub step: u64,
 }
 
 impl Prepared {
-    /// Number of samples, the start with them.
+    /// Returns the number of samples, including the start.
     #[must_use]
     pub fn samples(&self) -> u64 {
         self.segments.last().map_or(0, Segment::end) + 1
     }
 
-    /// Where a sample is; `None` behind the last.
+    /// Returns the position of a sample; `None` after the last.
     #[must_use]
     pub fn place(&self, sample: u64) -> Option<Place> {
         let segment = self.segments.partition_point(|s| s.end() < sample);
@@ -146,14 +146,14 @@ impl Prepared {
         })
     }
 
-    /// The exact point of a sample, in mm; `None` behind the last.
+    /// Returns the exact point of a sample in mm; `None` after the last.
     #[must_use]
     pub fn point(&self, sample: u64) -> Option<Point> {
         let Place { segment, step } = self.place(sample)?;
         self.segments.get(segment).map(|s| s.point(step))
     }
 
-    /// Distance of a point from the pieces that a segment belongs to.
+    /// Returns the distance of a point from the pieces of a segment.
     #[must_use]
     pub fn distance(&self, segment: &Segment, point: Point) -> f64 {
         let pieces = std::iter::once(segment.piece).chain(segment.next_piece);
@@ -165,7 +165,7 @@ impl Prepared {
 }
 
 impl Segment {
-    /// Blend, line or arc.
+    /// Returns the kind of the segment.
     #[must_use]
     pub fn kind(&self) -> Kind {
         match self.shape {
@@ -175,13 +175,13 @@ impl Segment {
         }
     }
 
-    /// Its last sample.
+    /// Returns the last sample.
     #[must_use]
     pub fn end(&self) -> u64 {
         self.first_sample + self.samples
     }
 
-    /// The exact point of its sample number `step`, 0 being where it begins.
+    /// Returns the exact point of sample `step`; 0 is the start.
     #[must_use]
     pub fn point(&self, step: u64) -> Point {
         let share = step as f64 / self.samples as f64;
@@ -200,15 +200,15 @@ impl Segment {
         }
     }
 
-    /// Distance of a blend from its corner at half its time: 3/16·|A⁻ − 2A + A⁺|. Other segments
-    /// have none.
+    /// Returns the distance of a blend from its corner at half its time: 3/16·|A⁻ − 2A + A⁺|;
+    /// `None` for other segments.
     #[must_use]
     pub fn corner_distance(&self) -> Option<f64> {
         self.bend().map(|bend| 3.0 / 16.0 * norm(bend))
     }
 
-    /// Largest acceleration of a blend of the duration 2ta, at half its time: 3·|A⁻ − 2A + A⁺|/(2ta)².
-    /// Other segments have none.
+    /// Returns the greatest acceleration of a blend of duration 2ta, at half its time: 3·|A⁻ − 2A
+    /// + A⁺|/(2ta)²; `None` for other segments.
     #[must_use]
     pub fn peak_acceleration(&self, timing: &Timing) -> Option<f64> {
         let duration = 2.0 * timing.half_blend_s();
@@ -216,7 +216,7 @@ impl Segment {
             .map(|bend| 3.0 * norm(bend) / (duration * duration))
     }
 
-    /// S = A⁻ − 2A + A⁺.
+    /// Returns S = A⁻ − 2A + A⁺.
     fn bend(&self) -> Option<Point> {
         match self.shape {
             Shape::Blend {
@@ -230,16 +230,16 @@ impl Segment {
 }
 
 impl PieceReport {
-    /// Distance of a point from the piece.
+    /// Returns the distance of a point from the piece.
     #[must_use]
     pub fn distance(&self, point: Point) -> f64 {
         distance(point, self.course.nearest(self.from, self.to, point))
     }
 }
 
-/// \[5\]: x = A⁻ + 2(A − A⁻)h + (A⁻ − 2A + A⁺)(2 − h)h³.
+/// Returns x = A⁻ + 2(A − A⁻)h + (A⁻ − 2A + A⁺)(2 − h)h³ (\[5\]).
 fn blend(before: Point, corner: Point, behind: Point, h: f64) -> Point {
-    // As weights of the three points: at both ends exactly the point.
+    // Weights of the three points, exact at both ends.
     let (rest, third) = (1.0 - h, h * h * h);
     let first = rest * rest * rest * (1.0 + h);
     let last = third * (2.0 - h);

@@ -1,14 +1,14 @@
-//! Blends and lines by products: their records, and what the circuit makes of them by integers.
+//! Blends and lines by products: their records, and an integer model of the circuit.
 //!
-//! | word | of a blend or line by products |
+//! | word | contents for a blend or line by products |
 //! |---|---|
-//! | 1 | M, its samples |
-//! | 2, 3, 4 | 0: the way from A⁻ |
-//! | 5, 6, 7 | A⁻, where it begins |
-//! | 8c + 8, 8c + 9 | of coordinate c: 2(A − A⁻), S; of a line its way, 0 |
-//! | 10, 11, 12 | h = 0; 1/M as whole and part, in units of 2^-B |
+//! | 1 | number of samples M |
+//! | 2, 3, 4 | 0: the distance from A⁻ |
+//! | 5, 6, 7 | start A⁻ |
+//! | 8c + 8, 8c + 9 | of coordinate c: 2(A − A⁻), S; for a line its length, 0 |
+//! | 10, 11, 12 | h = 0; 1/M as integer and fractional part, in units of 2^-B |
 //!
-//! The others are 0; header and arcs are as always.
+//! Other words are 0; headers and arcs are unchanged.
 
 use super::prepared::{Prepared, Segment, Shape};
 use super::record::{self, quantise, signed};
@@ -21,10 +21,10 @@ use crate::path::error::PathError;
 use crate::path::record::{Record, WORDS, coordinate_word};
 use crate::path::vector::scale;
 
-/// The records of a path, at so many counts per millimetre; `widths` are those of products.
+/// Returns the records of a path at `counts_per_mm`; `widths` are those of products.
 ///
 /// # Errors
-/// As of [`record::records`].
+/// Returns the errors of [`record::records`].
 pub fn records(
     prepared: &Prepared,
     counts_per_mm: f64,
@@ -38,7 +38,7 @@ pub fn records(
     Ok(records)
 }
 
-/// Gives a blend or line the words that products take.
+/// Replaces the words of a blend or line by those for products.
 fn rewrite(record: &mut Record, segment: &Segment, counts_per_mm: f64, widths: &Widths) {
     let units = |point| scale(point, counts_per_mm).map(|counts| quantise(counts, widths.guard()));
     let (before, slope, bend) = match segment.shape {
@@ -71,14 +71,15 @@ fn rewrite(record: &mut Record, segment: &Segment, counts_per_mm: f64, widths: &
         words[coordinate_word(k) + 1] = signed(bend[k], widths.point + 2);
     }
     let one = 1u64 << widths.coefficient_fraction();
-    // A segment without samples takes no step.
+    // A segment without samples has no step.
     let samples = segment.samples.max(1);
     words[SHARE_WORD as usize + 1] = one / samples;
     words[SHARE_WORD as usize + 2] = one % samples;
     record.words = words;
 }
 
-/// The position commands of such records, in counts: the start of the first and every sample of all.
+/// Returns the position commands of such records in counts: the start of the first and every
+/// sample of all.
 pub fn commands<'a>(
     records: &'a [Record],
     widths: &Widths,
@@ -90,7 +91,7 @@ pub fn commands<'a>(
     })
 }
 
-/// The points of a record's samples in guard units, from the one where it begins.
+/// Returns the points of a record's samples in guard units, starting with its start.
 #[must_use]
 pub fn points(record: &Record, widths: &Widths, rounding: Rounding) -> Points {
     let decoded = Decoded::of(record, widths);

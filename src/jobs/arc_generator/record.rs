@@ -1,4 +1,4 @@
-//! Segments as records.
+//! Conversion of segments to records.
 
 use super::bounds::rotation_error;
 use super::prepared::{Prepared, Segment, Shape};
@@ -10,13 +10,14 @@ use crate::path::record::{Record, WORDS, coordinate_word};
 use crate::path::vector::{rodrigues, scale};
 use fixed::types::I64F64;
 
-/// The records of a path, at so many counts per millimetre.
+/// Returns the records of a path at `counts_per_mm`.
 ///
-/// Every segment begins at the word at which the one before ends; an arc ends there but for its
+/// Every segment begins at the word at which the one before ends; an arc ends there within its
 /// [`rotation_error`].
 ///
 /// # Errors
-/// A coordinate, centre or radius does not fit in the words; the width that it needs is said.
+/// Returns an error if a coordinate, centre or radius does not fit in its word, with the width
+/// needed.
 pub fn records(
     prepared: &Prepared,
     counts_per_mm: f64,
@@ -37,7 +38,7 @@ pub fn records(
     segments.collect()
 }
 
-/// Checks that a segment's points are words.
+/// Checks that a segment's points fit in their words.
 fn fits(
     segment: &Segment,
     counts_per_mm: f64,
@@ -61,10 +62,10 @@ fn fits(
             .try_for_each(|(what, counts)| check(what, counts + error.copysign(counts)))
     };
     let names = ["x", "y", "z"];
-    // A point is rounded to a guard unit before it is rounded to a count.
+    // A point is rounded to a guard unit and then to a count.
     let unit = (-(widths.guard() as f64)).exp2();
     match &segment.shape {
-        // A blend stays within the triangle of its points.
+        // A blend is inside the triangle of its points.
         Shape::Blend {
             before,
             corner,
@@ -145,12 +146,12 @@ fn record(segment: &Segment, counts_per_mm: f64, widths: &Widths) -> Record {
     Record { words }
 }
 
-/// A word in two's complement.
+/// Returns a word in two's complement.
 pub(super) fn signed(value: i64, bits: usize) -> u64 {
     value as u64 & ((1 << bits) - 1)
 }
 
-/// Writes differences as wholes of so many bits and parts.
+/// Writes differences as integer parts of `bits` bits and fractional parts.
 pub(super) fn put_differences(
     words: &mut [u64],
     differences: [i128; 4],
@@ -163,8 +164,8 @@ pub(super) fn put_differences(
     }
 }
 
-/// The differences of x·M⁴ at the first sample, in guard units, of
-/// x = A⁻ + 2(A − A⁻)h + S(2 − h)h³ with h = n/M and S = A⁻ − 2A + A⁺.
+/// Returns the differences of x·M⁴ at the first sample, in guard units, of x = A⁻ + 2(A − A⁻)h +
+/// S(2 − h)h³ with h = n/M and S = A⁻ − 2A + A⁺.
 pub(super) fn blend_differences([before, corner, behind]: [i64; 3], samples: u64) -> [i128; 4] {
     let [before, corner, behind] = [before, corner, behind].map(i128::from);
     let (bend, m) = (before - 2 * corner + behind, i128::from(samples));
@@ -176,9 +177,9 @@ pub(super) fn blend_differences([before, corner, behind]: [i64; 3], samples: u64
     ]
 }
 
-/// The nearest multiple of 2^-`fraction`, in units of it, a half away from zero.
+/// Returns the nearest multiple of 2^-`fraction` as an integer; halves round away from zero.
 pub(super) fn quantise(value: f64, fraction: usize) -> i64 {
-    // A number of 64 bits on either side of the point holds whatever fits into a word.
+    // 64 bits on each side of the point hold everything that fits into a word.
     let units = I64F64::saturating_from_num(value).saturating_mul(I64F64::ONE << fraction);
     units.round().saturating_to_num()
 }

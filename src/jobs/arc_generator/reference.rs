@@ -1,5 +1,5 @@
-//! The samples of records by plain integer arithmetic: every sample of a blend or line from its
-//! polynomial by a division, every rotation by whole products.
+//! Reference model of records by integer arithmetic: every sample of a blend or line from its
+//! polynomial by a division, every rotation by full products.
 
 use crate::circuits::arc_generator::{Rounding, Widths};
 use crate::input::COORDINATES;
@@ -8,27 +8,27 @@ use crate::path::record::{Record, coordinate_word};
 /// Points of a record, one by one.
 pub type Points = Box<dyn Iterator<Item = [i64; COORDINATES]>>;
 
-/// What a record says, in guard units.
+/// Decoded record, in guard units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Decoded {
-    /// 0 blend, 1 line, 2 arc.
+    /// Kind: 0 blend, 1 line, 2 arc.
     pub kind: u64,
-    /// It ends at rest.
+    /// True if it ends at rest.
     pub ends_at_rest: bool,
-    /// Its samples.
+    /// Number of samples.
     pub samples: u64,
-    /// Of the differences.
+    /// Modulus of the differences.
     pub modulus: u64,
-    /// Where it begins; of an arc the vector from the centre.
+    /// Start; for an arc the vector from the centre.
     pub start: [i64; COORDINATES],
-    /// The centre of an arc, else 0.
+    /// Centre of an arc, else 0.
     pub origin: [i64; COORDINATES],
-    /// The words of each coordinate: differences as whole and part, or a matrix row.
+    /// Words of each coordinate: differences as integer and fractional part, or a matrix row.
     pub coordinates: [[i64; 8]; COORDINATES],
 }
 
 impl Decoded {
-    /// Reads a record as the circuit does: upper bits of signed words are ignored.
+    /// Decodes a record as the circuit does: upper bits of signed words are ignored.
     #[must_use]
     pub fn of(record: &Record, widths: &Widths) -> Self {
         let words = &record.words;
@@ -56,7 +56,7 @@ impl Decoded {
         }
     }
 
-    /// The points of its samples in guard units, from the one where it begins.
+    /// Returns the points of its samples in guard units, starting with its start.
     #[must_use]
     pub fn points(self, widths: &Widths, rounding: Rounding) -> Points {
         let widths = *widths;
@@ -66,7 +66,8 @@ impl Decoded {
         }
     }
 
-    /// Newton's forward formula: value + Σ C(n, k)·dₖ, rounded to the nearest, a half upwards.
+    /// Computes Newton's forward formula: value + Σ C(n, k)·dₖ, rounded to the nearest, halves
+    /// upwards.
     fn interpolated(&self, n: u64, widths: &Widths) -> [i64; COORDINATES] {
         let modulus = i128::from(self.modulus);
         std::array::from_fn(|coordinate| {
@@ -99,8 +100,8 @@ impl Decoded {
     }
 }
 
-/// The position commands of a path, in counts: the start of the first record and every sample of
-/// all.
+/// Returns the position commands of a path in counts: the start of the first record and every
+/// sample of all.
 pub fn commands<'a>(
     records: &'a [Record],
     widths: &Widths,
@@ -112,7 +113,7 @@ pub fn commands<'a>(
     })
 }
 
-/// The same of records whose points `points` makes.
+/// Returns the position commands of records whose points `points` computes.
 pub(super) fn commands_of<'a, F: Fn(&Record) -> Points + 'a>(
     records: &'a [Record],
     widths: &Widths,
@@ -127,7 +128,7 @@ pub(super) fn commands_of<'a, F: Fn(&Record) -> Points + 'a>(
     segments.map(move |point| point.map(|units| (units + half) >> guard))
 }
 
-/// A word of so many bits in two's complement.
+/// Reads a word of `bits` bits as two's complement.
 pub(super) fn signed(word: u64, bits: usize) -> i64 {
     let unused = 64 - bits;
     (word << unused) as i64 >> unused

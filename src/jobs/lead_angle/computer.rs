@@ -1,5 +1,5 @@
-//! The control computer of a compensator: writes the steps, lets them run, and sees to it that each
-//! finds its next target. It is the setter 25 too, of first times and of those for another load.
+//! Control computer of a compensator: writes the steps, starts them, and provides the next target
+//! of each. It also acts as setter 25, for first times and for times of another load.
 
 use super::job::{Ports, WIDTHS};
 use super::settings::{
@@ -8,16 +8,16 @@ use super::settings::{
 use crate::circuits::lead_angle::Compensator;
 use crate::hdl::zero;
 
-/// The control computer: writes a step a tick, then lets them run. As soon as a step has taken its
-/// target it is written the one for when it comes next, where that is another.
+/// Control computer: writes one step per tick, then starts them. As soon as a step has taken its
+/// target, its next target is written, if it differs.
 #[derive(Debug)]
 pub(super) struct ControlComputer<'a> {
     settings: &'a Settings,
-    /// Positionings that have taken their target.
+    /// Number of positionings that have taken their target.
     begun: usize,
-    /// A step was armed in the tick before.
+    /// True if a step was armed in the tick before.
     arming: bool,
-    /// Steps whose time for the other load has been set.
+    /// Number of steps whose time for the other load has been set.
     changed: usize,
 }
 
@@ -31,13 +31,13 @@ impl<'a> ControlComputer<'a> {
         }
     }
 
-    /// What it gives `circuit` in every tick, with all else low.
+    /// Returns the inputs of `circuit` that are constant, with all others low.
     pub(super) fn standing(&self, circuit: &Compensator) -> Ports {
         let settings = self.settings;
         let cks = |ms: f64| u64::from(settings.cks(ms));
         let standstill = match (settings.action, settings.completion) {
             (Action::Stop, Completion::Standstill) => cks(settings.standstill_ms),
-            // No standstill is so long.
+            // Longer than any standstill.
             _ => (1 << WIDTHS.cks) - 1,
         };
         Ports {
@@ -57,7 +57,7 @@ impl<'a> ControlComputer<'a> {
         }
     }
 
-    /// Counts of a turn or a pitch, as the port has them.
+    /// Returns the counts of a turn or a pitch for the port.
     fn turn(&self) -> u64 {
         let counts = match self.settings.detector {
             Detector::Incremental => 0,
@@ -68,13 +68,15 @@ impl<'a> ControlComputer<'a> {
         counts % (1 << WIDTHS.code)
     }
 
-    /// A lead time of the conventional compensator as its parameter: in gates, in 1/256.
+    /// Returns a lead time of the conventional compensator as its parameter: in gates, in units of
+    /// 1/256.
     fn parameter(&self, ms: f64) -> u64 {
         let gates = 256.0 * ms / self.settings.speed_gate_ms;
         (gates.round() as u64).min((1 << 14) - 1)
     }
 
-    /// Sets the parameter of the step that runs, where each has its own; whether it stands as it was.
+    /// Sets the parameter of the current step, if each step has its own; returns true if it is
+    /// unchanged.
     pub(super) fn choose_parameter(&self, i: &mut Ports, step: u64) -> bool {
         let step = usize::try_from(step).unwrap_or(usize::MAX);
         let Some(ms) = self.settings.speed_leads_ms.get(step) else {
@@ -85,8 +87,9 @@ impl<'a> ControlComputer<'a> {
         i.lead_parameter == before
     }
 
-    /// What it gives in `tick`, in which a step is armed or runs or not; steps run as soon as all are
-    /// written, and wait at a change of the load for their times. Whether all of it stands as it was.
+    /// Sets the inputs of `tick`, given if a step is armed or runs. Steps run as soon as all are
+    /// written, and wait at a change of the load for their times. Returns true if all inputs are
+    /// unchanged.
     pub(super) fn tick(
         &mut self,
         i: &mut Ports,
@@ -112,7 +115,7 @@ impl<'a> ControlComputer<'a> {
         let waits = change && self.changed < self.settings.load_leads_ms.len();
         let before = (i.write_target | i.write_time, i.run);
         self.write(i, write);
-        // What is learned is written in a step only, so between steps nothing is refused.
+        // Learned times are written only during a step, so none is refused between steps.
         self.set_time(i, place, waits && !busy);
         i.run = place >= steps && run && !waits;
         before == (false, i.run) && !i.write_target && !i.write_time
@@ -139,7 +142,7 @@ impl<'a> ControlComputer<'a> {
         }
     }
 
-    /// Writes the step of a positioning, with the target that it has then.
+    /// Writes the step of a positioning with its target.
     fn write(&self, i: &mut Ports, positioning: Option<usize>) {
         let steps = &self.settings.steps;
         let step = positioning.map(|number| number % steps.len());
@@ -151,7 +154,7 @@ impl<'a> ControlComputer<'a> {
     }
 }
 
-/// A position as the word that stands for it: positions are a ring.
+/// Returns the word of a position: positions are a ring.
 pub(super) fn word(position: i64) -> i64 {
     let half = 1 << (WIDTHS.position - 1);
     (position + half).rem_euclid(2 * half) - half

@@ -1,4 +1,4 @@
-//! Positionings one after the other: a compensator, a body, and its brake.
+//! Sequence of positionings: a compensator, a body, and its brake.
 
 use super::computer::{ControlComputer, word};
 use super::sensor::{Sensor, carrier};
@@ -10,18 +10,18 @@ use crate::plant::waves::{Body, BodySignals};
 use crate::plant::{BrakedBody, Operation};
 use crate::settings::JobError;
 
-/// Widths of the compensator that jobs run on.
+/// Widths of the jobs' compensator.
 pub(super) const WIDTHS: Widths = Widths::FULL;
 
-/// How far past its target a body is stopped by hand, in seconds of its way.
+/// Time after passing its target at which a body is stopped by hand, in seconds.
 const MISSED_S: f64 = 0.1;
-/// Seconds after which a positioning is given up that is not complete.
+/// Time after which an incomplete positioning is given up, in seconds.
 const PATIENCE_S: f64 = 600.0;
 
-/// The ports in of a compensator.
+/// Input ports of a compensator.
 pub(super) type Ports = In<Value>;
 
-/// The compensator of these settings.
+/// Returns the compensator for the settings.
 pub fn positioner(settings: &Settings) -> Compensator {
     let steps = settings.steps.iter();
     let codes = steps.map(|step| settings.code(step.lead_ms).unwrap_or(0));
@@ -43,60 +43,61 @@ pub fn positioner(settings: &Settings) -> Compensator {
     }
 }
 
-/// One positioning.
+/// Result of one positioning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Positioning {
-    /// The step it was.
+    /// Index of the step.
     pub step: usize,
-    /// The last tick in which it was armed.
+    /// Last tick in which it was armed.
     pub begun: u64,
-    /// Sx, from the start on: of a body that turns on and on it exceeds the word.
+    /// Target Sx, counted from the start: for a body that keeps turning it exceeds the word.
     pub target: i64,
-    /// It went to greater counts.
+    /// True if it moved to greater counts.
     pub upward: bool,
-    /// Δt1 in CKs.
+    /// Lead time Δt1 in CKs.
     pub code: u64,
     /// Tick of the control signal.
     pub fired: u64,
-    /// Dx at the control signal, likewise.
+    /// Position Dx at the control signal, counted from the start.
     pub trigger_position: i64,
-    /// True speed at the control signal, in counts a second.
+    /// True speed at the control signal, in counts per second.
     pub speed_counts_per_s: f64,
-    /// Tick in which it was complete.
+    /// Tick of completion.
     pub completed: u64,
-    /// Dx then, likewise.
+    /// Position Dx at completion, counted from the start.
     pub stopped: i64,
-    /// Way past the target in the direction of the move; negative where it stopped short, or where
-    /// the operation took effect before it. Where the time was over, of where the body was then.
+    /// Distance past the target in the direction of the move; negative if it stopped short, or the
+    /// operation took effect before it. After a timeout, it refers to the body's position at that
+    /// time.
     pub error: i64,
-    /// Dx then, less where the body truly was, in counts: what the detector is off by.
+    /// Position error of the detector at completion: Dx minus true position, in counts.
     pub position_error_counts: f64,
-    /// Its time was over before the body stood still, or the operation took effect.
+    /// True if the time expired before the body stood still, or the operation took effect.
     pub timed_out: bool,
-    /// True speed when it was complete, in counts a second.
+    /// True speed at completion, in counts per second.
     pub end_speed_counts_per_s: f64,
-    /// The target was missed, and the body stopped by hand.
+    /// True if the target was missed, and the body stopped by hand.
     pub missed: bool,
-    /// Δt2 in CKs, where something was learned.
+    /// Learned time Δt2 in CKs, if any.
     pub learned: Option<u64>,
 }
 
-/// What came of a run.
+/// Result of a run.
 #[derive(Debug, Clone, Default)]
 pub struct Played {
-    /// Ticks.
+    /// Number of ticks.
     pub ticks: u64,
-    /// Dx of the last tick, from the start on as targets are.
+    /// Position Dx in the last tick, counted from the start like targets.
     pub position: i64,
     /// Positionings in order.
     pub positionings: Vec<Positioning>,
-    /// The encoder was too fast.
+    /// True if the encoder was too fast.
     pub lost: bool,
-    /// A positioning was not complete for too long, and the run given up.
+    /// True if a positioning stayed incomplete for too long, and the run was given up.
     pub unsettled: bool,
 }
 
-/// What is looked at.
+/// Observed signals.
 struct See {
     speed: At<u64>,
     drive: At<bool>,
@@ -148,31 +149,31 @@ impl See {
     }
 }
 
-/// Watches, stops by hand what missed its target, and writes down what comes of it.
+/// Observer that stops missed bodies by hand and records the results.
 struct Bench<'a> {
     settings: &'a Settings,
     completed: u32,
-    /// Ticks since something was complete.
+    /// Ticks since the last completion.
     idle: u64,
     patience: u64,
-    /// A step was armed in the tick before.
+    /// True if a step was armed in the tick before.
     arming: bool,
-    /// The body is far past its target.
+    /// True if the body is far past its target.
     past: bool,
-    /// The operation has effect.
+    /// True while the operation has effect.
     effect: bool,
-    /// Where it took effect since the step was armed.
+    /// Position at which it took effect since the step was armed.
     effect_at: Option<i64>,
     played: Played,
 }
 
 impl Bench<'_> {
-    /// Whether another positioning is to begin.
+    /// True if another positioning is to begin.
     fn run(&self) -> bool {
         self.played.positionings.len() < self.settings.positionings as usize
     }
 
-    /// Whether the operation has effect in this tick, as its sensor says.
+    /// Records if the operation has effect in this tick, according to its sensor.
     fn operate(&mut self, effect: bool, body: &BrakedBody) {
         if effect && !self.effect {
             self.effect_at = Some(body.position_counts().round() as i64);
@@ -180,7 +181,7 @@ impl Bench<'_> {
         self.effect = effect;
     }
 
-    /// Takes the tick up; whether the run goes on.
+    /// Records the tick; returns true if the run continues.
     fn take(&mut self, now: &Sample<'_, Compensator>, see: &See, body: &BrakedBody) -> bool {
         let tick = self.played.ticks;
         self.played.ticks += 1;
@@ -189,7 +190,7 @@ impl Bench<'_> {
         if arm {
             self.effect_at = None;
             if self.arming {
-                // The sample that ends it says where the body is.
+                // The sample that ends it gives the body's position.
                 self.played.positionings.pop();
             }
             let number = self.played.positionings.len();
@@ -255,16 +256,17 @@ impl Bench<'_> {
     }
 }
 
-/// The position nearest to `target` that this word stands for.
+/// Returns the position nearest to `target` that this word represents.
 fn unwrapped(position: i64, target: i64) -> i64 {
     target + word(position - target)
 }
 
-/// Plays the positionings of `settings` on `circuit`, with a body and its brake, seen by `observer`
-/// too.
+/// Plays the positionings of `settings` on `circuit`, with a body and its brake; `observer` sees
+/// it too.
 ///
 /// # Errors
-/// A setting or a parameter of the body is out of range, or what `observer` objects to.
+/// Returns an error if a setting or a parameter of the body is out of range, or the error of
+/// `observer`.
 pub fn play(
     circuit: &Compensator,
     settings: &Settings,

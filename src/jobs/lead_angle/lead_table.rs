@@ -1,14 +1,15 @@
-//! The leads of Fig. 7 by speed, as the machine's delays and its braking ask for them.
+//! Leads of Fig. 7 by speed, computed from the machine's delays and its braking.
 
 use super::job::WIDTHS;
 use super::settings::{Action, CONVERSION_TICKS, Detector, Settings, TARGET_RANGE_COUNTS};
 use crate::circuits::lead_angle::LeadTable;
 
-/// Bits of the memory's address: half of its words are of either direction.
+/// Address width of the memory in bits: half of its words belong to each direction.
 const ADDRESS: usize = 8;
 
-/// Ticks from an encoder's pins to the control signal, the wait for a CK apart; of a phase-shift
-/// detector with the age of a crossing, which is half a CK in the mean, of a resolver from its strobe.
+/// Returns the latency in ticks from an encoder's pins to the control signal, without the wait for
+/// a CK. For a phase-shift detector it includes the age of a crossing, half a CK on average; for a
+/// resolver it starts at its strobe.
 fn latency_ticks(settings: &Settings) -> f64 {
     match settings.detector {
         Detector::Incremental => 5.0,
@@ -18,8 +19,9 @@ fn latency_ticks(settings: &Settings) -> f64 {
     }
 }
 
-/// θa for every speed that the steps come to, at the nominal load: the way that the body goes from the
-/// pins of its encoder on, with half a CK of waiting, to its stop or to the operation's effect.
+/// Returns θa for every speed of the steps, at nominal load: the distance that the body moves from
+/// the encoder's pins, with an average wait of half a CK, to its stop or to the operation's
+/// effect.
 pub(super) fn lead_table(settings: &Settings) -> LeadTable {
     let ck_s = settings.ck_ms() / 1e3;
     let gate_s = f64::from(settings.cks(settings.speed_gate_ms)) * ck_s;
@@ -36,7 +38,7 @@ pub(super) fn lead_table(settings: &Settings) -> LeadTable {
             Action::Operate => speed * settings.operation_delay_s,
         };
         let lead = (from_signal + speed * latency_s).round() as i64;
-        // No longer than the farthest way to a target.
+        // Limited to the greatest distance to a target.
         lead.min(*TARGET_RANGE_COUNTS.end()) * way.signum()
     })
 }

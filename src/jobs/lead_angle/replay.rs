@@ -1,5 +1,5 @@
-//! A position log on a compensator: where it would have given its signals, and how good its
-//! predictions were.
+//! Replay of a position log on a compensator: its control signals, and the quality of its
+//! predictions.
 
 use super::computer::{ControlComputer, word};
 use super::sensor::{Sensor, carrier};
@@ -11,63 +11,63 @@ use crate::plant::waves::{Body, BodySignals};
 use crate::plant::{Encoder, Operation};
 use crate::settings::{JobError, SettingError};
 
-/// A control signal that the log gave rise to.
+/// Control signal caused by the log.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Signal {
-    /// The step whose target it was.
+    /// Index of the step whose target caused it.
     pub step: usize,
-    /// Sx in the log's counts.
+    /// Target Sx in the log's counts.
     pub target: i64,
-    /// Its tick.
+    /// Tick of the signal.
     pub tick: u64,
-    /// Its lead time in milliseconds.
+    /// Lead time in milliseconds.
     pub lead_ms: f64,
     /// Position at the signal, in the log's counts.
     pub position: i64,
-    /// Where its operation took effect, in the log's counts.
+    /// Position at which the operation took effect, in the log's counts.
     pub effect_position: Option<f64>,
-    /// Position that time after the sample that the signal came of, in the log's counts; `None` where the
-    /// log is over by then.
+    /// Position one lead time after the sample that caused the signal, in the log's counts; `None`
+    /// if the log has ended by then.
     pub position_after: Option<f64>,
 }
 
-/// Parts of a log whose largest errors are told apart.
+/// Number of parts of a log whose greatest errors are recorded separately.
 pub const PARTS: usize = 400;
 
-/// How far off the predictions of all CKs were, in counts.
+/// Errors of the predictions in all CKs, in counts.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Predictions {
-    /// Predictions that the log can judge.
+    /// Number of predictions that the log can verify.
     pub count: u64,
-    /// Root of their mean square error.
+    /// Root mean square error.
     pub rms: f64,
-    /// Largest error.
+    /// Greatest error.
     pub largest: f64,
-    /// Root of the mean square error without a lead.
+    /// Root mean square error without a lead.
     pub rms_without: f64,
-    /// Largest error without a lead.
+    /// Greatest error without a lead.
     pub largest_without: f64,
 }
 
-/// What came of a log.
+/// Result of a log.
 #[derive(Debug, Clone, Default)]
 pub struct Replayed {
-    /// Ticks.
+    /// Number of ticks.
     pub ticks: u64,
     /// Signals in order.
     pub signals: Vec<Signal>,
     /// All predictions that were made with a lead.
     pub predictions: Predictions,
-    /// Largest errors with the lead and without in each of [`PARTS`] equal parts of the log, in
-    /// counts; `NaN` where nothing was predicted.
+    /// Greatest errors with and without the lead in each of [`PARTS`] equal parts of the log, in
+    /// counts; `NaN` if there was no prediction.
     pub parts: Vec<[f64; 2]>,
-    /// The encoder was too fast.
+    /// True if the encoder was too fast.
     pub lost: bool,
 }
 
-/// The settings that a log is replayed with: targets count from its first sample. No signal stops a
-/// log, and so no stop is learned from; an operation is, as the body goes on in any case. The next
-/// step begins as soon as it can.
+/// Returns the settings for replaying a log: targets count from its first sample. A signal does
+/// not stop a log, so nothing is learned from stops; learning from operations remains, as the body
+/// continues in any case. The next step begins as soon as possible.
 #[must_use]
 pub fn settings_for(log: &PositionLog, settings: &Settings) -> Settings {
     let mut settings = settings.clone();
@@ -81,18 +81,18 @@ pub fn settings_for(log: &PositionLog, settings: &Settings) -> Settings {
         settings.learn = false;
         settings.time_out_ms = ck_ms;
     }
-    // A log has one load.
+    // A log has a single load.
     settings.load_leads_ms.clear();
     settings.standstill_ms = ck_ms;
     settings.rest_ms = ck_ms;
     settings
 }
 
-/// Checks settings that a log is replayed with: of its body no stop is known, and so no lead by it,
-/// and its way is given, so that targets may be as near as one likes.
+/// Checks settings for a replay. The stop of the log's body is unknown, so a lead table is
+/// refused; its motion is given, so that targets may be arbitrarily near.
 ///
 /// # Errors
-/// Names the first field at fault, its value and what is allowed.
+/// Returns an error that names the first field at fault, its value and the allowed range.
 pub fn validate(settings: &Settings) -> Result<(), SettingError> {
     if settings.lead == LeadBy::Table {
         let allowed = "time or speed with a log, of whose body no stop is known";
@@ -101,12 +101,12 @@ pub fn validate(settings: &Settings) -> Result<(), SettingError> {
     settings.validate_fields()
 }
 
-/// Counts of the first sample.
+/// Returns the counts of the first sample.
 fn origin(log: &PositionLog) -> i64 {
     log.samples.first().map_or(0, |sample| sample.counts)
 }
 
-/// What is looked at.
+/// Observed signals.
 struct See {
     arm: At<bool>,
     control: At<bool>,
@@ -142,7 +142,7 @@ impl See {
     }
 }
 
-/// Sums of what is measured.
+/// Sums of the measures.
 #[derive(Default)]
 struct Sums {
     squares: [f64; 2],
@@ -174,11 +174,11 @@ impl Sums {
     }
 }
 
-/// Replays `log` on `circuit` to its end, with the settings of [`settings_for`], seen by `observer`
-/// too.
+/// Replays `log` on `circuit` to its end, with the settings of [`settings_for`]; `observer` sees
+/// it too.
 ///
 /// # Errors
-/// A setting that [`validate`] refuses, or what `observer` objects to.
+/// Returns an error for a setting that [`validate`] refuses, or the error of `observer`.
 pub fn replay(
     circuit: &Compensator,
     settings: &Settings,
@@ -225,7 +225,7 @@ pub fn replay(
             };
             let predicts = now.get(see.fresh) && now.get(see.enough) && lead_ms > 0.0;
             let known = if predicts || fire {
-                // The sample of this pair was taken a tick ago.
+                // The sample of this pair was taken one tick ago.
                 let after = seconds - tick_s + lead_ms / 1e3;
                 (after <= log.seconds()).then(|| at(after))
             } else {
@@ -236,7 +236,7 @@ pub fn replay(
             {
                 let [predicted, wanted] = see.compared.map(|at| now.get(at));
                 let (position, target) = (now.get(see.position), now.get(see.target));
-                // However it is placed.
+                // Independent of the placement.
                 let lead = word(predicted - wanted + target - position) as f64;
                 let position = position as f64;
                 let part = u128::from(tick) * PARTS as u128 / (u128::from(ticks) + 1);

@@ -1,4 +1,4 @@
-//! What the detector of a compensator sees of the body: the signals at its pins.
+//! Sensor of a compensator's detector: the signals at its pins.
 
 use super::job::{Ports, WIDTHS};
 use super::settings::{Detector, Settings};
@@ -7,21 +7,21 @@ use crate::circuits::lead_angle::detector::DetectorPart;
 use crate::hdl::{At, Watcher};
 use crate::plant::{AbsoluteEncoder, PhaseShiftTransducer, Resolver};
 
-/// The sensor of a detector that gives places.
+/// Sensor of a detector that outputs positions.
 #[derive(Debug)]
 pub(super) enum Sensor {
-    /// An incremental encoder, which is on the body.
+    /// Incremental encoder, which is part of the body.
     Channels,
-    /// An absolute encoder with a sampling clock of its own.
+    /// Absolute encoder with its own sampling clock.
     Absolute(AbsoluteEncoder),
-    /// A phase-shift transducer, excited by the detector.
+    /// Phase-shift transducer, excited by the detector.
     PhaseShift(PhaseShiftTransducer),
-    /// A resolver and its A/D converters.
+    /// Resolver with its A/D converters.
     Resolver(Resolver),
 }
 
 impl Sensor {
-    /// The sensor of these settings.
+    /// Returns the sensor for the settings.
     pub(super) fn of(settings: &Settings) -> Self {
         match settings.detector {
             Detector::Incremental => Sensor::Channels,
@@ -42,8 +42,8 @@ impl Sensor {
         }
     }
 
-    /// One tick, with the body at a position in counts and the carrier at a phase; whether the pins
-    /// stand as they were.
+    /// Advances one tick with the body at a position in counts and the carrier at a phase; returns
+    /// true if the pins are unchanged.
     #[inline]
     pub(super) fn step(&mut self, i: &mut Ports, position_counts: f64, phase: u64) -> bool {
         let pins = |i: &Ports| (i.strobe, i.code, i.secondary, i.sine, i.cosine);
@@ -62,7 +62,7 @@ impl Sensor {
     }
 }
 
-/// Phase of the carrier, where there is one.
+/// Returns the phase of the carrier, if there is one.
 pub(super) fn carrier(watch: &Watcher<'_, Compensator>) -> Option<At<u64>> {
     match &watch.p.detector {
         DetectorPart::PhaseShift(part) => Some(watch.at(part.p.counter.q.phase)),

@@ -1,5 +1,5 @@
-//! A drawing's cycles through the controller, with a motor on each axis: on the linear interpolator,
-//! and on the conventional system.
+//! Run of a drawing's cycles with a motor on each axis, on the linear interpolator and on the
+//! conventional system.
 
 use super::measure::{Cycle, Played, ScanRecord, Seen};
 use super::profile::Profile;
@@ -14,12 +14,12 @@ use crate::plant::{Ahead, ServoAxis, ServoParameters, waves};
 use crate::settings::JobError;
 use fixed::types::U8F8;
 
-/// Full scale of its D/A converters of 16 bits.
+/// Full scale of the 16-bit D/A converters.
 const FULL_SCALE: i64 = (1 << 15) - 1;
-/// Scans without a new command after which an axis that is not in position is given up.
+/// Number of scans without a new command after which an axis that is not in position is given up.
 const PATIENCE: u64 = 20_000;
 
-/// The plotter with the linear interpolator, with rule and master axis as the settings have them.
+/// Returns the plotter with the linear interpolator, with rule and master axis from the settings.
 pub fn plotter(settings: &Settings) -> Controller {
     Controller::new(CommandSource::Linear(LinearInterpolator {
         widths: Widths::FULL,
@@ -28,13 +28,13 @@ pub fn plotter(settings: &Settings) -> Controller {
     }))
 }
 
-/// The plotter with the conventional system of Fig. 3.
+/// Returns the plotter with the conventional system of Fig. 3.
 pub fn conventional() -> Controller {
     Controller::new(CommandSource::Conventional(Conventional::default()))
 }
 
 impl AxisSettings {
-    /// Driver, motor and encoder of this axis.
+    /// Returns driver, motor and encoder of this axis.
     fn servo(&self) -> ServoParameters {
         ServoParameters {
             velocity_loop_s: self.velocity_loop_ms / 1e3,
@@ -46,7 +46,7 @@ impl AxisSettings {
         }
     }
 
-    /// Kp in LSB of the D/A converter a count.
+    /// Returns Kp in LSB of the D/A converter per count.
     pub fn gain(&self) -> U8F8 {
         let lsb_per_count =
             self.position_gain_per_s * FULL_SCALE as f64 / self.rated_counts_per_s();
@@ -54,7 +54,7 @@ impl AxisSettings {
     }
 }
 
-/// What is looked at.
+/// Observed signals.
 struct See {
     reference: [At<i64>; 2],
     scan: At<bool>,
@@ -89,46 +89,46 @@ impl See {
     }
 }
 
-/// The control computer: gives targets, and writes down what comes of them.
+/// Control computer: gives targets and records the results.
 struct Bench<'a, const N: usize> {
     targets: &'a [Target<N>],
-    /// Scans so far, and what is told of each.
+    /// Number of scans so far, and receiver of each.
     scans: usize,
     each: &'a mut dyn FnMut(&Seen<'_>),
     master: MasterAxis,
     pushed: usize,
-    /// A push stood in the tick before.
+    /// True if a push was given in the tick before.
     pushing: bool,
     ready: bool,
     played: Played,
-    /// The cycle whose command came with the tick before, and which the next scan is to record.
+    /// Cycle whose command came with the tick before, to be recorded by the next scan.
     loaded: Option<usize>,
     fresh: Option<usize>,
-    /// Scans since a new command.
+    /// Number of scans since the last new command.
     idle: u64,
-    /// The tick was one of many like it, as far as is looked at.
+    /// True if the tick equals the one before in all observed signals.
     quiet: bool,
 }
 
 impl<const N: usize> Bench<'_, N> {
-    /// Whether the tick to come gives the ports what this one did, and is written down like it, if
-    /// nothing that is looked at changes.
+    /// True if the next tick's inputs and records will be the same, provided that the observed
+    /// signals do not change.
     fn stands(&self) -> bool {
         let pushes = self.pushing || (self.ready && self.pushed < self.targets.len());
         self.quiet && !pushes && self.loaded.is_none()
     }
 
-    /// The target that is given in this tick.
+    /// Returns the target that is given in this tick.
     fn push(&mut self) -> Option<Target<N>> {
         let target = self.targets.get(self.pushed).copied();
-        // The flag is that of the tick before: full or not, it has not changed without a push.
+        // The flag is that of the tick before: full or not, it changes only by a push.
         let target = target.filter(|_| self.ready && !self.pushing);
         self.pushing = target.is_some();
         self.pushed += usize::from(self.pushing);
         target
     }
 
-    /// Whether the run goes on.
+    /// Records the tick; returns true if the run continues.
     fn take(&mut self, now: &Sample<'_, Controller>, see: &See, motor: [f64; 2]) -> bool {
         let played = &mut self.played;
         let command = || see.command.map(|command| now.get(command));
@@ -208,11 +208,11 @@ fn give<const N: usize>(orders: &mut Orders<Value>, target: Option<Target<N>>) {
     }
 }
 
-/// Plays the cycles on `circuit`, whose targets have as many settings, with motors as `settings`
-/// have them, which stand in the waves beside it; seen by `observer` too.
+/// Plays the cycles on `circuit`, whose targets have `N` settings, with motors according to
+/// `settings`, which are beside it in the waves; `observer` sees it too.
 ///
 /// # Errors
-/// A setting is out of range, or what `observer` objects to.
+/// Returns an error if a setting is out of range, or the error of `observer`.
 pub fn play<const N: usize>(
     circuit: &Controller,
     targets: &[Target<N>],
@@ -225,10 +225,10 @@ pub fn play<const N: usize>(
     Ok(Played { records, ..played })
 }
 
-/// Does what [`play`] does, but tells every scan to `each` as it comes and keeps no records.
+/// Plays as [`play`] does, but passes every scan to `each` and keeps no records.
 ///
 /// # Errors
-/// Errors of [`play`].
+/// Returns the errors of [`play`].
 pub fn play_each<const N: usize>(
     circuit: &Controller,
     targets: &[Target<N>],

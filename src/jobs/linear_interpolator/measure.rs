@@ -1,12 +1,12 @@
-//! What a run is judged by: how far the commands and the motors were off the ideal lines.
+//! Measures of a run: the deviation of commands and motors from the ideal lines.
 
 use crate::circuits::linear_interpolator::Rule;
 use std::ops::Range;
 
-/// One scan of a run.
+/// Record of one scan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScanRecord {
-    /// The tick in which the command stands.
+    /// Tick of the command.
     pub tick: u64,
     /// Commanded position of X and Y, in counts.
     pub command: [i64; 2],
@@ -14,55 +14,55 @@ pub struct ScanRecord {
     pub motor: [f64; 2],
 }
 
-/// A scan as it comes.
+/// Scan with its context.
 #[derive(Debug)]
 pub struct Seen<'a> {
-    /// The scan as it is measured.
+    /// Measured scan.
     pub record: ScanRecord,
-    /// The cycle whose new command stands in it.
+    /// Cycle whose new command is in this scan.
     pub fresh: Option<usize>,
-    /// The cycles so far.
+    /// Cycles so far.
     pub cycles: &'a [Cycle],
 }
 
-/// One positioning cycle of a run.
+/// Positioning cycle of a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Cycle {
-    /// Where it starts, in counts.
+    /// Start in counts.
     pub from: [i64; 2],
-    /// Where it is to end.
+    /// Target in counts.
     pub to: [i64; 2],
-    /// The axis that leads, or has the longer way where none does: 0 is X, 1 is Y.
+    /// Master axis, or the axis with the longer distance if there is none: 0 is X, 1 is Y.
     pub master: usize,
-    /// Its records, from the first command to the last.
+    /// Range of its records, from the first command to the last.
     pub scans: Range<usize>,
-    /// The command when it ended.
+    /// Command at the end, in counts.
     pub end: [i64; 2],
 }
 
-/// What was seen of a run.
+/// Result of a run.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Played {
-    /// Ticks of the run.
+    /// Number of ticks.
     pub ticks: u64,
-    /// Every scan; none of [`play_each`](super::job::play_each).
+    /// All scans; empty for [`play_each`](super::job::play_each).
     pub records: Vec<ScanRecord>,
-    /// Every cycle, in order.
+    /// All cycles in order.
     pub cycles: Vec<Cycle>,
-    /// A scan came before the command of the scan before was ready.
+    /// True if a scan came before the command of the scan before was ready.
     pub late: bool,
-    /// Targets that were too far away.
+    /// Number of targets that were too far away.
     pub refused: u64,
-    /// X and Y: the feedback counter has lost counts.
+    /// True for X and Y if the feedback counter has lost counts.
     pub lost: [bool; 2],
-    /// An axis did not come into position, and the run was given up.
+    /// True if an axis did not reach its position, and the run was given up.
     pub unsettled: bool,
-    /// X and Y: scans in which the speed command was at its limit.
+    /// Numbers of scans of X and Y with the speed command at its limit.
     pub saturated_scans: [u64; 2],
 }
 
 impl Played {
-    /// The records of a cycle, and those of the wait after it: until the next one begins.
+    /// Returns the records of a cycle and of the wait after it, until the next one begins.
     #[must_use]
     pub fn records_of(&self, cycle: usize) -> &[ScanRecord] {
         let Some(this) = self.cycles.get(cycle) else {
@@ -75,7 +75,7 @@ impl Played {
         self.records.get(this.scans.start..end).unwrap_or(&[])
     }
 
-    /// The measures of every cycle; `counts_per_mm` is that of X and Y.
+    /// Returns the measures of every cycle; `counts_per_mm` is for X and Y.
     #[must_use]
     pub fn segments(&self, counts_per_mm: [f64; 2]) -> Vec<Segment> {
         (0..self.cycles.len())
@@ -94,17 +94,17 @@ impl Played {
     }
 }
 
-/// Measures all cycles of a run while it goes on.
+/// Measurement of all cycles during a run.
 #[derive(Debug)]
 pub struct Measuring {
     counts_per_mm: [f64; 2],
     segments: Vec<Segment>,
-    /// The cycle under way.
+    /// Current cycle.
     latest: Option<CycleMeasuring>,
 }
 
 impl Measuring {
-    /// None yet; `counts_per_mm` is that of X and Y.
+    /// Creates an empty measurement; `counts_per_mm` is for X and Y.
     #[must_use]
     pub fn new(counts_per_mm: [f64; 2]) -> Self {
         Measuring {
@@ -114,7 +114,7 @@ impl Measuring {
         }
     }
 
-    /// Takes the next scan; returns the cycle that it belongs to, if there is one.
+    /// Adds the next scan; returns its cycle, if there is one.
     pub fn take(&mut self, seen: &Seen<'_>) -> Option<usize> {
         if let Some(cycle) = seen.fresh
             && (self.latest.is_none() || cycle != self.segments.len())
@@ -128,20 +128,20 @@ impl Measuring {
         Some(cycle)
     }
 
-    /// Ends the cycles before one.
+    /// Ends the cycles before `until`.
     fn close(&mut self, cycles: &[Cycle], until: usize) {
         if let Some(latest) = self.latest.take() {
             let ended = latest.finish(&cycles[self.segments.len()]);
             self.segments.push(ended);
         }
-        // Of one without a scan there is nothing.
+        // A cycle without a scan has no measures.
         for cycle in &cycles[self.segments.len()..until] {
             let none = CycleMeasuring::new(cycle, self.counts_per_mm);
             self.segments.push(none.finish(cycle));
         }
     }
 
-    /// The measures of every cycle, once the run is over.
+    /// Returns the measures of every cycle after the run.
     #[must_use]
     pub fn finish(mut self, cycles: &[Cycle]) -> Vec<Segment> {
         self.close(cycles, cycles.len());
@@ -149,16 +149,16 @@ impl Measuring {
     }
 }
 
-/// Measures a cycle while it goes on.
+/// Measurement of the current cycle.
 #[derive(Debug)]
 struct CycleMeasuring {
     counts_per_mm: [f64; 2],
-    /// Scans from the first command to the last.
+    /// Number of scans from the first command to the last.
     scans: usize,
     off: u128,
     /// Commands since the last new one: they belong to the cycle if another one comes.
     waiting: Vec<[i64; 2]>,
-    /// The two commands before the next.
+    /// Last two commands.
     before: [[i64; 2]; 2],
     acceleration: [u64; 2],
     contour: [f64; 2],
@@ -177,7 +177,7 @@ impl CycleMeasuring {
         }
     }
 
-    /// Takes a scan, in which a new command stands or not.
+    /// Adds a scan; `fresh` is true for a new command.
     fn take(&mut self, cycle: &Cycle, record: &ScanRecord, fresh: bool) {
         for (largest, scale) in self.contour.iter_mut().zip([[1.0; 2], self.counts_per_mm]) {
             *largest = largest.max(cycle.contour_error(record.motor, scale).abs());
@@ -192,7 +192,7 @@ impl CycleMeasuring {
         }
     }
 
-    /// Takes the second difference with the next command.
+    /// Adds the second difference with the next command.
     fn accelerate(&mut self, command: [i64; 2]) {
         let [first, second] = self.before;
         for (axis, most) in self.acceleration.iter_mut().enumerate() {
@@ -237,22 +237,22 @@ impl CycleMeasuring {
 }
 
 impl Cycle {
-    /// The way in X and Y.
+    /// Returns the distances in X and Y, in counts.
     #[must_use]
     pub fn delta(&self) -> [i64; 2] {
         [0, 1].map(|axis| self.to[axis] - self.from[axis])
     }
 
-    /// |Δm·(s − s0) − Δs·(m − m0)|: |Δm| times the deviation of a point along the slave axis, and
-    /// the length of the segment times its perpendicular distance.
+    /// Returns |Δm·(s − s0) − Δs·(m − m0)|: |Δm| times the deviation of a point along the slave
+    /// axis, and the length of the segment times its perpendicular distance.
     fn off(&self, point: [i64; 2]) -> u128 {
         let delta = self.delta().map(i128::from);
         let at = [0, 1].map(|axis| i128::from(point[axis]) - i128::from(self.from[axis]));
         (delta[0] * at[1] - delta[1] * at[0]).unsigned_abs()
     }
 
-    /// Where a point is off the line through the segment, to the left of it positive: the nearest
-    /// point of the line, and the distance, in counts over `scale`.
+    /// Returns the point of the segment's line nearest to a point, and the point's distance,
+    /// positive on the left, in counts over `scale`.
     #[must_use]
     pub fn foot(&self, point: [f64; 2], scale: [f64; 2]) -> ([f64; 2], f64) {
         let from = [0, 1].map(|axis| self.from[axis] as f64 / scale[axis]);
@@ -268,31 +268,31 @@ impl Cycle {
         ([0, 1].map(|axis| from[axis] + along * unit[axis]), off)
     }
 
-    /// The contour error of a point: its distance from the line through the segment, to the left
-    /// of it positive, in counts over `scale`.
+    /// Returns the contour error of a point: its distance from the segment's line, positive on the
+    /// left, in counts over `scale`.
     #[must_use]
     pub fn contour_error(&self, point: [f64; 2], scale: [f64; 2]) -> f64 {
         self.foot(point, scale).1
     }
 }
 
-/// A deviation along the slave axis, exact, in counts (LSB).
+/// Exact deviation along the slave axis, in counts (LSB).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Deviation {
-    /// |Δm·(s − s0) − Δs·(m − m0)|.
+    /// Numerator |Δm·(s − s0) − Δs·(m − m0)|.
     pub numerator: u128,
-    /// |Δm|.
+    /// Denominator |Δm|.
     pub denominator: u128,
 }
 
 impl Deviation {
-    /// In LSB.
+    /// Returns the deviation in LSB.
     #[must_use]
     pub fn lsb(self) -> f64 {
         self.numerator as f64 / self.denominator as f64
     }
 
-    /// Whether the rule allows for it: below 1 LSB, centred at most one half.
+    /// True if the rule allows the deviation: below 1 LSB, or if centred at most one half.
     #[must_use]
     pub fn is_within(self, rule: Rule) -> bool {
         match rule {
@@ -302,26 +302,26 @@ impl Deviation {
     }
 }
 
-/// The measures of one cycle.
+/// Measures of one cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
-    /// Δx and Δy in counts.
+    /// Distances Δx and Δy in counts.
     pub delta: [i64; 2],
-    /// The axis that leads, or has the longer way where none does: 0 is X, 1 is Y.
+    /// Master axis, or the axis with the longer distance if there is none: 0 is X, 1 is Y.
     pub master: usize,
-    /// Scans from the first command to the last, both counted.
+    /// Number of scans from the first command to the last, inclusive.
     pub scans: usize,
-    /// The command at the end less the target.
+    /// Command at the end minus target, in counts.
     pub end_error: [i64; 2],
-    /// X and Y: the largest change of the commanded speed from scan to scan, from rest to rest, in
+    /// Greatest change of the commanded speed of X and Y from scan to scan, from rest to rest, in
     /// counts per scan.
     pub acceleration: [u64; 2],
-    /// Largest deviation of a command from the ideal line, along the slave axis.
+    /// Greatest deviation of a command from the ideal line, along the slave axis.
     pub deviation: Deviation,
-    /// The same perpendicular to the line, in counts.
+    /// Greatest deviation perpendicular to the line, in counts.
     pub perpendicular_counts: f64,
-    /// Largest distance of the motors from the line until the next cycle begins, in counts.
+    /// Greatest distance of the motors from the line until the next cycle begins, in counts.
     pub contour_counts: f64,
-    /// The same in micrometres.
+    /// Greatest distance of the motors from the line, in micrometres.
     pub contour_um: f64,
 }

@@ -1,4 +1,4 @@
-//! A drawing on the linear interpolator: its cycles, the motors, and how far they were off.
+//! A drawing on the linear interpolator: its cycles, the motors, and their deviations.
 
 pub mod job;
 pub mod measure;

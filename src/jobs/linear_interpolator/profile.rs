@@ -1,35 +1,36 @@
-//! Speed and times that a position pattern is given.
+//! Speed and times of a position pattern.
 //!
-//! An acceleration time is that from rest to 100 % speed (¶0004). A pattern takes the time from
-//! rest to its own speed: the same part of it as its speed is of 100 %, so that the slope stays.
+//! An acceleration time is from rest to 100 % speed (¶0004). A pattern takes the time from rest to
+//! its own speed, which is proportional, so that the slope is constant.
 
 use super::settings::{Settings, ShortMoves};
 use super::targets::TIME_BITS;
 
-/// A count a scan, as a speed is written: with as many bits of fraction as a time has bits.
+/// Word of one count per scan: a speed has as many fraction bits as a time has bits.
 pub const SPEED_ONE: u64 = 1 << TIME_BITS;
 
-/// The slowest speed of a target in counts a scan: the fraction rounds it by at most 1 %.
+/// Least speed of a target in counts per scan: the fraction rounds it by at most 1 %.
 pub const SLOWEST: f64 = 100.0 / SPEED_ONE as f64;
 
-/// A speed this little below a step of the fraction is that step: a rounding of floating point must
-/// not cost one.
+/// Relative distance below a step of the fraction that still counts as that step: floating-point
+/// rounding must not lose one.
 const ROUNDING: f64 = 1e-12;
 
 /// Speed and times of one position pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Profile {
-    /// Speed in counts a scan times [`SPEED_ONE`], 1 or more.
+    /// Speed in counts per scan times [`SPEED_ONE`], at least 1.
     pub speed: u64,
-    /// Time from rest to that speed, in scans, 1 or more.
+    /// Time from rest to that speed in scans, at least 1.
     pub acceleration_scans: u64,
-    /// Time from that speed to rest, in scans, 1 or more.
+    /// Time from that speed to rest in scans, at least 1.
     pub deceleration_scans: u64,
 }
 
 impl Profile {
-    /// That of an axis (0 is X, 1 is Y) for a distance in counts at a speed, with the times from rest
-    /// to 100 % speed and back in scans. Without `short` a short move keeps its slope.
+    /// Returns the profile of an axis (0 is X, 1 is Y) for a distance in counts at a speed;
+    /// `times` are from rest to 100 % speed and back in scans. Without `short` a short move keeps
+    /// its slope.
     pub(super) fn over(
         settings: &Settings,
         axis: usize,
@@ -54,25 +55,25 @@ impl Profile {
         }
     }
 
-    /// Speed in counts a scan.
+    /// Returns the speed in counts per scan.
     #[must_use]
     pub fn counts_per_scan(&self) -> f64 {
         self.speed as f64 / SPEED_ONE as f64
     }
 }
 
-/// A speed in counts a scan as it is written, never above the one given; none where that is below
-/// the last bit of the fraction.
+/// Returns the word of a speed in counts per scan, never above the given one; `None` below the
+/// last bit of the fraction.
 pub(crate) fn speed_word(exact: f64) -> Option<u64> {
     let word = (exact * SPEED_ONE as f64 * (1.0 + ROUNDING)).floor() as u64;
     (word > 0).then_some(word)
 }
 
-/// Times of acceleration and deceleration over `distance` counts at `speed`.
+/// Returns the times of acceleration and deceleration over `distance` counts at `speed`.
 ///
-/// The two ramps take V·(Ta + Td)/2. Over a shorter distance Δ the same accelerations lead to the
-/// times k·Ta and k·Td and to the peak k·V with k² = 2·Δ/(V·(Ta + Td)). Rounded up, they never lead
-/// to a larger acceleration.
+/// The two ramps take V·(Ta + Td)/2. Over a shorter distance Δ the same accelerations give the
+/// times k·Ta and k·Td and the peak k·V with k² = 2·Δ/(V·(Ta + Td)). Rounded up, they never give a
+/// greater acceleration.
 fn shortened(distance: u64, speed: u64, times: [u64; 2]) -> [u64; 2] {
     let twice = 2 * u128::from(distance) * u128::from(SPEED_ONE);
     let ramps = u128::from(speed) * u128::from(times[0] + times[1]);
@@ -83,7 +84,7 @@ fn shortened(distance: u64, speed: u64, times: [u64; 2]) -> [u64; 2] {
         let square = (u128::from(time).pow(2) * twice).div_ceil(ramps);
         let root = square.isqrt();
         let up = u128::from(root * root < square);
-        // No more than `time`, as 2·Δ is below V·(Ta + Td); at least 1, as Δ is.
+        // At most `time`, as 2·Δ is below V·(Ta + Td); at least 1, as Δ is.
         ((root + up) as u64).max(1)
     })
 }

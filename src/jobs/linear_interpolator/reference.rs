@@ -1,7 +1,7 @@
-//! The ideal formulas as a plain program: what the circuit is held against.
+//! Reference model: the ideal formulas as a plain program, with which the circuit is compared.
 //!
-//! Positions come from closed forms, in whole numbers: nothing is accumulated, so that a fault of
-//! the circuit's accumulators cannot stand here too. The motors are of first order.
+//! Positions come from closed forms in integers. Nothing is accumulated, so that a fault of the
+//! circuit's accumulators cannot be repeated here. The motors are of first order.
 
 use super::measure::{Cycle, Played, ScanRecord};
 use super::profile::{Profile, SPEED_ONE};
@@ -9,11 +9,11 @@ use super::settings::{AxisSettings, Settings};
 use super::targets::Target;
 use crate::circuits::linear_interpolator::{MasterAxis, Rule};
 
-/// The position pattern generator 14: x(n) of one cycle.
+/// Position pattern generator 14: x(n) of one cycle.
 ///
-/// In units of Δ/W the way grows by (2k − 1)·Td in scan k of the acceleration, by 2·Ta·Td in each
-/// of the Tc steady scans, and by (2k − 1)·Ta in scan k from the end of the deceleration; their sum
-/// is W = Ta·Td·(Ta + 2·Tc + Td).
+/// In units of Δ/W the position grows by (2k − 1)·Td in scan k of the acceleration, by 2·Ta·Td in
+/// each of the Tc steady scans, and by (2k − 1)·Ta in scan k from the end of the deceleration;
+/// their sum is W = Ta·Td·(Ta + 2·Tc + Td).
 #[derive(Debug, Clone)]
 pub struct Pattern {
     from: i64,
@@ -21,24 +21,24 @@ pub struct Pattern {
     acceleration: i128,
     steady: i128,
     deceleration: i128,
-    /// Scans that are over.
+    /// Number of scans so far.
     scan: i128,
     stop: Option<Stop>,
 }
 
-/// A deceleration that an abort began.
+/// Deceleration started by an abort.
 #[derive(Debug, Clone, Copy)]
 struct Stop {
-    /// The scan after which it came.
+    /// Scan after which it came.
     scan: i128,
-    /// Way at that time.
+    /// Distance at that time.
     way: i128,
     /// Speed at that time.
     level: i128,
 }
 
 impl Pattern {
-    /// A cycle of `distance` from `from`; a speed and times of 0 count as 1.
+    /// Creates a cycle of `distance` from `from`; a speed and times of 0 count as 1.
     #[must_use]
     pub fn new(from: i64, distance: i64, profile: &Profile) -> Self {
         let distance = i128::from(distance);
@@ -63,7 +63,7 @@ impl Pattern {
         }
     }
 
-    /// Scans from start to end, an abort counted.
+    /// Returns the number of scans from start to end, including an abort.
     #[must_use]
     pub fn scans(&self) -> i128 {
         match (self.distance, self.stop) {
@@ -76,13 +76,13 @@ impl Pattern {
         }
     }
 
-    /// Whether positions are to come.
+    /// True if more positions follow.
     #[must_use]
     pub fn is_active(&self) -> bool {
         self.scan < self.scans()
     }
 
-    /// The next position; `None` where the cycle is over.
+    /// Returns the next position; `None` after the end of the cycle.
     pub fn advance(&mut self) -> Option<i64> {
         if !self.is_active() {
             return None;
@@ -91,7 +91,7 @@ impl Pattern {
         Some(self.position())
     }
 
-    /// The position after the scans that are over.
+    /// Returns the position after the scans so far.
     #[must_use]
     pub fn position(&self) -> i64 {
         let (ta, tc, td) = (self.acceleration, self.steady, self.deceleration);
@@ -100,7 +100,7 @@ impl Pattern {
         self.from + (self.distance.signum() * way) as i64
     }
 
-    /// Slows down from the present speed to rest, along the same line.
+    /// Decelerates from the current speed to rest, along the same line.
     pub fn abort(&mut self) {
         if self.is_active() && self.stop.is_none() {
             self.stop = Some(Stop {
@@ -111,14 +111,14 @@ impl Pattern {
         }
     }
 
-    /// Speed at the end of a scan that no abort has changed.
+    /// Returns the speed at the end of a scan, without an abort.
     fn level(&self, scan: i128) -> i128 {
         let (ta, tc, td) = (self.acceleration, self.steady, self.deceleration);
         let left = ta + tc + td - scan;
         (2 * td * scan).min(2 * ta * td).min(2 * ta * left)
     }
 
-    /// Way at the end of a scan, in units of Δ/W.
+    /// Returns the distance at the end of a scan, in units of Δ/W.
     fn way(&self, scan: i128) -> i128 {
         let (ta, tc, td) = (self.acceleration, self.steady, self.deceleration);
         if let Some(stop) = self.stop {
@@ -139,7 +139,7 @@ impl Pattern {
     }
 }
 
-/// The integrator 24: the way of the slave axis from that of the master axis.
+/// Integrator 24: distance of the slave axis from that of the master axis.
 #[derive(Debug, Clone)]
 pub struct Integrator {
     rule: Rule,
@@ -149,7 +149,7 @@ pub struct Integrator {
 }
 
 impl Integrator {
-    /// A cycle in which the master axis goes `master`, which is not 0, and the slave axis `slave`.
+    /// Creates a cycle with the distances of the master axis, which is not 0, and the slave axis.
     #[must_use]
     pub fn new(rule: Rule, master: i64, slave: i64) -> Self {
         Integrator {
@@ -160,14 +160,14 @@ impl Integrator {
         }
     }
 
-    /// The slave's increment for an increment of the master axis.
+    /// Returns the slave's increment for an increment of the master axis.
     pub fn advance(&mut self, increment: i64) -> i64 {
         let before = self.way();
         self.travelled += i128::from(increment);
         (self.way() - before) as i64
     }
 
-    /// The slave's way since the cycle began: Δs·(m − m0)/Δm, rounded.
+    /// Returns the slave's distance since the cycle began: Δs·(m − m0)/Δm, rounded.
     fn way(&self) -> i128 {
         let sign = if self.master < 0 { -1 } else { 1 };
         let (product, divisor) = (sign * self.slave * self.travelled, sign * self.master);
@@ -180,7 +180,7 @@ impl Integrator {
     }
 }
 
-/// The commands of one cycle.
+/// Commands of one cycle.
 enum Commands {
     Interpolated {
         pattern: Pattern,
@@ -191,8 +191,8 @@ enum Commands {
 }
 
 impl Commands {
-    /// With one setting the master axis has a pattern and the slave axis the integrator (Figs 5 and
-    /// 6), with two each axis has a pattern (Fig. 3, ¶0005).
+    /// Creates the commands. With one setting the master axis has a pattern and the slave axis the
+    /// integrator (Figs 5 and 6); with two each axis has a pattern (Fig. 3, ¶0005).
     fn new<const N: usize>(
         settings: &Settings,
         from: [i64; 2],
@@ -216,7 +216,7 @@ impl Commands {
         (commands, master)
     }
 
-    /// The next command after `at`; `None` where the cycle is over.
+    /// Returns the next command after `at`; `None` after the end of the cycle.
     fn advance(&mut self, at: [i64; 2]) -> Option<[i64; 2]> {
         let mut to = at;
         match self {
@@ -244,15 +244,15 @@ impl Commands {
 /// Position loop, driver and motor of one axis.
 #[derive(Debug, Clone, Copy, Default)]
 struct Motor {
-    /// In counts.
+    /// Position in counts.
     position: f64,
-    /// In counts per second.
+    /// Speed in counts per second.
     speed: f64,
     saturated_scans: u64,
 }
 
 impl Motor {
-    /// A scan of `seconds` under the command that stands in it; the speed follows with a lag.
+    /// Advances by a scan of `seconds` under its command; the speed follows with a lag.
     fn advance(&mut self, axis: &AxisSettings, command: i64, seconds: f64) {
         let most = axis.rated_counts_per_s();
         let wanted = axis.position_gain_per_s * self.error(command) as f64;
@@ -265,17 +265,17 @@ impl Motor {
         self.speed = wanted + missing * left;
     }
 
-    /// The command less what the encoder has counted.
+    /// Returns the command minus the count of the encoder.
     fn error(&self, command: i64) -> i64 {
         command - self.position.round() as i64
     }
 }
 
-/// Scans after which an axis that does not come into position is no more waited for.
+/// Number of scans after which an axis that does not reach its position is given up.
 const PATIENCE: u64 = 100_000;
 
-/// Plays the cycles scan by scan, on the interpolator where targets have one setting, on the
-/// conventional system where they have one for each axis. `each` sees the tick of every scan.
+/// Plays the cycles scan by scan: on the interpolator if targets have one setting, on the
+/// conventional system if they have one for each axis. `each` receives the tick of every scan.
 pub fn play<const N: usize>(
     targets: &[Target<N>],
     settings: &Settings,

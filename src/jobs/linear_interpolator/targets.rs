@@ -1,7 +1,7 @@
-//! A drawing as positioning cycles: the target data 20.
+//! Conversion of a drawing to positioning cycles: the target data 20.
 //!
-//! Every straight move is one cycle, every arc as many as it has chords. Targets are the drawing's
-//! points rounded to encoder counts one by one, so that no error adds up. A Z is ignored.
+//! Every straight move is one cycle; an arc has one cycle per chord. Targets are the drawing's
+//! points rounded to encoder counts separately, so that errors do not add up. Z is ignored.
 
 use super::profile::{Profile, SLOWEST, SPEED_ONE, speed_word};
 use super::settings::{AXIS_NAMES, Settings};
@@ -11,7 +11,7 @@ use crate::plan::digits::round_up;
 use crate::plan::{PlanError, check, chords};
 use crate::settings::{SettingError, tidy};
 
-/// Ticks that the dividers need within a scan.
+/// Number of ticks that the dividers need within a scan.
 pub const LATENCY_TICKS: u32 = {
     let interpolator = LinearInterpolator {
         widths: Widths::FULL,
@@ -21,23 +21,23 @@ pub const LATENCY_TICKS: u32 = {
     interpolator.latency() as u32
 };
 
-/// Longest time of acceleration and of deceleration, in scans.
+/// Greatest time of acceleration and of deceleration, in scans.
 pub const LONGEST_RAMP: u64 = (1 << TIME_BITS) - 1;
 
-/// Width of these times.
+/// Width of these times in bits.
 pub(super) const TIME_BITS: usize = Widths::FULL.time;
 
-/// Farthest position, in counts on either side of zero.
+/// Greatest absolute value of a position, in counts.
 pub const REACH_COUNTS: i64 = 1 << 30;
 
-/// The most cycles that a drawing may become.
+/// Greatest number of cycles of a drawing.
 pub const MOST_TARGETS: usize = 1 << 20;
 
-/// The most steady scans of a cycle.
+/// Greatest number of steady scans of a cycle.
 const MOST_STEADY: f64 = i32::MAX as f64;
 
-/// One positioning cycle, with `N` settings of speed and times: that of the master axis, or those
-/// of X and Y.
+/// Positioning cycle with `N` settings of speed and times: one for the master axis, or one each
+/// for X and Y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target<const N: usize = 1> {
     /// X in counts.
@@ -46,46 +46,46 @@ pub struct Target<const N: usize = 1> {
     pub y: i64,
     /// Speeds and times.
     pub profiles: [Profile; N],
-    /// The speed along the line that is asked for, in mm/min.
+    /// Requested speed along the line, in mm/min.
     pub feed_mm_per_min: f64,
     /// Line of the input; 0 for the way to a start that is not the origin.
     pub line: usize,
-    /// Whether the pen is up.
+    /// True if the pen is up.
     pub rapid: bool,
 }
 
-/// What a drawing became.
+/// Cycles of a drawing.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Targets {
-    /// The cycles. They begin at the origin, where the command registers are at power-on.
+    /// Cycles; they begin at the origin, where the command registers are at power-on.
     pub targets: Vec<Target>,
-    /// Points left out because they have the counts of the point before.
+    /// Number of points left out because their counts equal those of the point before.
     pub dropped: usize,
-    /// The drawing moves in Z, which no axis drives.
+    /// True if the drawing moves in Z, which no axis drives.
     pub moves_in_z: bool,
 }
 
-/// Why a drawing cannot be made into cycles.
+/// Reason why a drawing cannot be converted to cycles.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TargetError {
-    /// A setting is outside what is allowed.
+    /// A setting is out of range.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// The drawing has a value that cannot be computed with.
+    /// The drawing has a value that cannot be used.
     #[error(transparent)]
     Drawing(#[from] PlanError),
-    /// A feed at which an encoder makes more than one count per tick, or above 100 % speed.
+    /// A feed is above 100 % speed, or makes an encoder move by more than one count per tick.
     #[error("line {line}: feed {} mm/min: allowed are up to {}", tidy(*value), tidy(*most))]
     Feed {
         /// Line of the input.
         line: usize,
-        /// The feed in mm/min.
+        /// Feed in mm/min.
         value: f64,
-        /// The fastest.
+        /// Greatest feed in mm/min.
         most: f64,
     },
-    /// A feed at which the master axis goes so slowly that the fraction of its speed is too coarse,
-    /// or that the cycle has too many scans.
+    /// A feed makes the master axis so slow that the fraction of its speed is too coarse, or that
+    /// the cycle has too many scans.
     #[error(
         "line {line}: feed {} mm/min: allowed are {least} and more in this direction",
         tidy(*value)
@@ -93,9 +93,9 @@ pub enum TargetError {
     Slow {
         /// Line of the input; 0 for the way to a start that is not the origin.
         line: usize,
-        /// The feed in mm/min.
+        /// Feed in mm/min.
         value: f64,
-        /// The slowest in this direction, rounded up to six digits.
+        /// Least feed in this direction in mm/min, rounded up to six digits.
         least: f64,
     },
     /// A position is out of reach.
@@ -103,12 +103,12 @@ pub enum TargetError {
     Position {
         /// Line of the input.
         line: usize,
-        /// "x" or "y".
+        /// Axis: "x" or "y".
         axis: &'static str,
-        /// The position in counts.
+        /// Position in counts.
         counts: f64,
     },
-    /// More cycles than can be played.
+    /// There are more than [`MOST_TARGETS`] cycles.
     #[error("line {line}: more than {MOST_TARGETS} cycles")]
     TooMany {
         /// Line of the input.
@@ -116,13 +116,13 @@ pub enum TargetError {
     },
 }
 
-/// Makes the cycles of a drawing.
+/// Converts a drawing to cycles.
 ///
 /// # Errors
 ///
-/// A setting outside its range; a drawing with a coordinate, a feed or a radius that cannot be
-/// computed with; a feed that an encoder cannot be counted at, above 100 % speed or too slow; a
-/// position out of reach; more than [`MOST_TARGETS`] cycles.
+/// Returns an error for a setting out of range; a coordinate, feed or radius that cannot be used;
+/// a feed that an encoder cannot follow, above 100 % speed or too slow; a position out of reach;
+/// more than [`MOST_TARGETS`] cycles.
 pub fn compile(drawing: &Drawing, settings: &Settings) -> Result<Targets, TargetError> {
     settings.validate()?;
     check(drawing)?;
@@ -163,7 +163,7 @@ struct Compiler<'a> {
 }
 
 impl Compiler<'_> {
-    /// A point in counts.
+    /// Converts a point to counts.
     fn counts(&self, line: usize, point: Point) -> Result<[i64; 2], TargetError> {
         let mut counts = [0; 2];
         for axis in 0..2 {
@@ -180,7 +180,7 @@ impl Compiler<'_> {
         Ok(counts)
     }
 
-    /// Adds the cycle to a point; none where that is where the last one ends.
+    /// Adds the cycle to a point, unless the last one ends there.
     fn go(&mut self, to: [i64; 2], feed: f64, line: usize, rapid: bool) -> Result<(), TargetError> {
         if to == self.at {
             self.made.dropped += 1;

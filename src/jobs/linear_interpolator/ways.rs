@@ -1,25 +1,25 @@
-//! The two conventional ways of ¶0005 to give each axis a position pattern of its own.
+//! The two conventional methods of ¶0005, in which each axis has its own position pattern.
 
 use super::profile::Profile;
 use super::settings::Settings;
 use super::targets::Target;
 
-/// What the patterns of X and Y are given.
+/// Settings of the patterns of X and Y.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
-    /// Both axes the same speed and the same acceleration times: the axis with the shorter way
-    /// is done earlier.
+    /// Equal speed and acceleration times on both axes: the axis with the shorter distance
+    /// finishes earlier.
     SameSettings,
     /// Speeds in proportion to the distances, acceleration times in inverse proportion: straight
-    /// but for what the times are rounded to whole scans.
+    /// except for rounding of the times to whole scans.
     InProportion,
 }
 
 impl Way {
-    /// Both, in the text's order.
+    /// Both methods, in the text's order.
     pub const ALL: [Way; 2] = [Way::SameSettings, Way::InProportion];
 
-    /// The name it has in summaries.
+    /// Returns the name in summaries.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -28,9 +28,9 @@ impl Way {
         }
     }
 
-    /// The cycles of the linear interpolator as this way plays them, from the origin.
+    /// Returns the cycles of the linear interpolator for this method, from the origin.
     ///
-    /// A slope is kept also by a move that is too short for its speed, as the text has it.
+    /// A move that is too short for its speed keeps its slope too, as in the text.
     #[must_use]
     pub fn targets(self, targets: &[Target], settings: &Settings) -> Vec<Target<2>> {
         let mut at = [0; 2];
@@ -51,7 +51,7 @@ impl Way {
         each.collect()
     }
 
-    /// The settings of X and Y for ways in counts, where the longer is gone at `speed`.
+    /// Returns the settings of X and Y for distances in counts; the longer one has `speed`.
     fn profiles(self, way: [u64; 2], speed: u64, settings: &Settings) -> [Profile; 2] {
         let master = usize::from(way[0] < way[1]);
         let (longer, times) = (way[master], settings.ramp_scans());
@@ -73,7 +73,7 @@ impl Way {
                 }
             }
             match way[axis] {
-                // It stands; a pattern that is given nothing to do takes any setting.
+                // No motion; a pattern without distance accepts any setting.
                 0 => Profile {
                     speed: 1,
                     acceleration_scans: 1,

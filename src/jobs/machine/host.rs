@@ -1,9 +1,9 @@
-//! The control computer of the machine: one job for everything at once, tick by tick.
+//! Control computer of the machine: one job for all parts at once, tick by tick.
 //!
-//! The steppers play their table from power-on. The servos take the job move by move: when both
+//! The steppers play their table from power-on. The servos execute the job move by move: when both
 //! motors are in position the next line is pushed, or the next arc started, and with it the length
-//! in time. Between a rapid move and one with the pen down the lift has its step first. Records go
-//! to arc generator and trajectory controller as they find room.
+//! over time. Between a rapid move and one with the pen down the lift makes its step first.
+//! Records are passed to arc generator and trajectory controller as space allows.
 
 use super::program::{Program, Way};
 use super::settings::{Correction, Settings};
@@ -19,33 +19,33 @@ use crate::jobs::trajectory_controller::path_writer::PathWriter;
 use crate::jobs::trajectory_controller::servo_gains::ServoGains;
 use crate::path::record_writer::RecordWriter;
 
-/// Ticks from the beginning of a move in which nobody says yet that it is busy.
+/// Number of ticks from the beginning of a move in which no part reports busy yet.
 const DEAF: u32 = 8;
-/// Records of a move that wait before it begins, where there are so many.
+/// Number of records that wait before a move begins, if the move has that many.
 const HEAD_START: usize = 4;
-/// Sampling times in a row for which the motors must be in position.
+/// Number of consecutive sampling times for which the motors must be in position.
 const CALM: u32 = 4;
 
-/// What the servos and the lift are at.
+/// Stage of the servos and the lift.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Stage {
-    /// The path is written, and the lift's steps.
+    /// Writing the path and the lift's steps.
     Write,
-    /// The next move is awaited: records, pen.
+    /// Waiting for the next move's records and the pen.
     Ready,
-    /// The lift is to begin its step; it has begun.
+    /// Waiting for the lift's step; true once it has begun.
     Lift(bool),
-    /// A move is under way, begun so many ticks ago.
+    /// Executing a move, for this number of ticks.
     Move(u32),
-    /// The commands stand; the motors come.
+    /// Waiting for the motors to settle on constant commands.
     Settle,
-    /// The last count to the job's end, where rounding left one.
+    /// Executing the last count to the job's end, left by rounding.
     Close(u32),
-    /// The job is done.
+    /// Job done.
     Done,
 }
 
-/// Bits of a guard unit's count.
+/// Number of guard bits per count.
 const GUARD: usize = Widths::FULL.guard();
 
 /// Gives a target for a line, or none.
@@ -56,7 +56,7 @@ fn give_line(i: &mut ports::Lines<Value>, push: bool, target: [i64; 2], speed: u
     i.settings.deceleration_time.fill(ramp);
 }
 
-/// What is looked at.
+/// Observed signals.
 #[derive(Debug)]
 struct See {
     pending: At<bool>,
@@ -64,12 +64,12 @@ struct See {
     arcs: [At<i64>; 2],
     arcs_ready: At<bool>,
     profile_ready: At<bool>,
-    /// Lines, arcs, profile.
+    /// Busy bits of lines, arcs, profile.
     busy: [At<bool>; 3],
     lift_busy: At<bool>,
     sample: At<bool>,
     counts: [At<i64>; 2],
-    /// Corrected commands, in guard units.
+    /// Corrected commands in guard units.
     corrected: [At<i64>; 2],
     position: [At<i64>; 2],
 }
@@ -95,7 +95,7 @@ impl See {
     }
 }
 
-/// The control computer.
+/// Control computer.
 #[derive(Debug)]
 pub(super) struct Host<'a> {
     see: See,
@@ -106,17 +106,17 @@ pub(super) struct Host<'a> {
     path: PathWriter<'a>,
     arcs: RecordWriter<'a>,
     profile: RecordWriter<'a>,
-    /// Records of these that are ended in this tick.
+    /// True for each record memory whose record ends in this tick.
     pushed: [bool; 2],
-    /// It gave nothing but what stands in this tick.
+    /// True if the inputs did not change in this tick.
     quiet: bool,
     lift_steps: Vec<lead_angle::Step>,
-    /// Lift steps that are written.
+    /// Number of lift steps written.
     lift_words: usize,
     pub(super) stage: Stage,
-    /// The move that is next, or under way.
+    /// Index of the next or current move.
     pub(super) index: usize,
-    /// Records up to the end of the move that is next, or under way.
+    /// Number of records up to the end of the next or current move.
     arcs_due: usize,
     profile_due: usize,
     pen_down: bool,
@@ -152,7 +152,7 @@ impl<'a> Host<'a> {
         }
     }
 
-    /// What it gives in every tick, with all else low.
+    /// Returns the inputs that are constant, with all others low.
     pub(super) fn standing(&self, circuit: &Machine) -> In<Value> {
         let (settings, program) = (self.settings, &self.program.path);
         let low = zero(circuit);
@@ -193,13 +193,13 @@ impl<'a> Host<'a> {
         }
     }
 
-    /// Whether it gives in the tick to come what it gave in this one, and is at what it was, if what
-    /// it looks at does not change.
+    /// True if the next tick's inputs and stage will be the same, provided that the observed
+    /// signals do not change.
     pub(super) fn stands(&self) -> bool {
         let waits = match self.stage {
             Stage::Move(age) | Stage::Close(age) => age >= DEAF,
             Stage::Lift(begun) => begun,
-            // It looks at the ends of sampling times.
+            // Depends on the ends of sampling times.
             Stage::Settle | Stage::Done => true,
             Stage::Write | Stage::Ready => false,
         };
@@ -209,7 +209,7 @@ impl<'a> Host<'a> {
             && self.profile.stands(self.profile_due)
     }
 
-    /// What it gives in this tick, from the registers; the encoders are left as they are.
+    /// Sets the inputs of this tick from the registers, except those of the encoders.
     pub(super) fn drive(&mut self, i: &mut In<Value>, now: &State<'_, Machine>) {
         i.pulse = self.pulse(now.get(self.see.pending));
         give_line(&mut i.lines, false, [0; 2], 0, 0);
@@ -245,7 +245,7 @@ impl<'a> Host<'a> {
         self.quiet = written && strobes == [false; 10];
     }
 
-    /// Begins the next move, or what must come before it.
+    /// Begins the next move, or the pen step that must precede it.
     fn begin(&mut self, now: &State<'_, Machine>, i: &mut In<Value>) {
         let Some(step) = self.program.moves.get(self.index) else {
             return;
@@ -274,7 +274,7 @@ impl<'a> Host<'a> {
         self.stage = Stage::Move(0);
     }
 
-    /// Gives a target: what lines have to add to the arcs' way.
+    /// Gives a target: the part of the way that lines must add to the arcs.
     fn push_line(&self, now: &State<'_, Machine>, to: [i64; 2], speed: u64, i: &mut In<Value>) {
         let arcs = self.see.arcs.map(|axis| now.get(axis));
         let target = [to[0] - arcs[0], to[1] - arcs[1]];
@@ -319,22 +319,22 @@ impl<'a> Host<'a> {
         i.run = false;
     }
 
-    /// Whether the steppers' table is given whole.
+    /// True if the steppers' table has been given completely.
     pub(super) fn pulses_given(&self) -> bool {
         self.pulses.has_given_all()
     }
 
-    /// Where the lift has the pen down.
+    /// Returns the position of the lift with the pen down.
     pub(super) fn pen_down_counts(&self) -> i64 {
         self.settings.pen_down_counts
     }
 
-    /// Whether the step that the lift is at lowers the pen.
+    /// True if the lift's current step lowers the pen.
     pub(super) fn lowers(&self) -> bool {
         !self.pen_down
     }
 
-    /// Takes up what the tick shows.
+    /// Records the signals of the tick.
     pub(super) fn take(&mut self, now: &Sample<'_, Machine>) {
         let see = &self.see;
         self.arcs.free = now.get(see.arcs_ready) && !self.pushed[0];
@@ -355,14 +355,14 @@ impl<'a> Host<'a> {
         };
     }
 
-    /// Both motors within the window of where their corrected commands end for some sampling times:
-    /// the move is over.
+    /// Ends the move when both motors have been within the window around the end of their
+    /// corrected commands for some sampling times.
     fn settle(&mut self, now: &Sample<'_, Machine>) -> Stage {
         if !now.get(self.see.sample) {
             return Stage::Settle;
         }
         let last = self.index + 1 >= self.program.moves.len();
-        // The end is where it is, to the count.
+        // The end is exact to the count.
         let window = if last {
             0
         } else {
@@ -371,7 +371,7 @@ impl<'a> Host<'a> {
         let counts = self.see.counts.map(|axis| now.get(axis));
         let position = self.see.position.map(|axis| now.get(axis));
         let near = match self.settings.correction {
-            // It ends beside the command, between counts.
+            // The motor settles beside the command, between counts.
             Correction::Steady => {
                 let corrected = self.see.corrected.map(|axis| now.get(axis));
                 let window = window.max(1) << GUARD;
@@ -391,7 +391,7 @@ impl<'a> Host<'a> {
         self.turn_to(self.index + 1)
     }
 
-    /// The records of a move may be written: the one before is over.
+    /// Allows the records of a move to be written: the one before is over.
     fn turn_to(&mut self, index: usize) -> Stage {
         self.index = index;
         match self.program.moves.get(index) {

@@ -1,4 +1,4 @@
-//! A job on the machine: steppers, servos and pen lift around it, and what came of it.
+//! Run of a job on the machine, with steppers, servos and pen lift around it, and its result.
 
 use super::host::{Host, Stage};
 use super::program::Program;
@@ -13,7 +13,7 @@ use crate::jobs::trajectory_controller::job::patience;
 use crate::settings::JobError;
 use std::array::from_fn;
 
-/// The machine of these settings.
+/// Returns the machine for the settings.
 #[must_use]
 pub fn machine(settings: &Settings) -> Machine {
     let (lift, widths) = (settings.lift(), lead_angle::Widths::default());
@@ -29,74 +29,74 @@ pub fn machine(settings: &Settings) -> Machine {
     )
 }
 
-/// Where everything is at a sampling time of the servos, from where the job begins.
+/// State of all parts at a sampling time of the servos, relative to the start of the job.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// The tick in which the torques stand.
+    /// Tick in which the torques are output.
     pub tick: u64,
-    /// The move that the servos are at.
+    /// Index of the servos' move.
     pub index: usize,
-    /// They are on the way; or the pen moves, or the motors come to rest.
+    /// True if the servos move; false while the pen moves or the motors come to rest.
     pub moving: bool,
     /// Position command in counts.
     pub command: [i64; 2],
-    /// The corrected command, in guard units.
+    /// Corrected command in guard units.
     pub corrected: [i64; 2],
-    /// Of the servos' models, in guard units.
+    /// Position of the servos' models in guard units.
     pub model: [i64; 2],
-    /// Of the motors, in counts.
+    /// Position of the motors in counts.
     pub motor: [i64; 2],
-    /// Of the loads, in counts.
+    /// Position of the loads in counts.
     pub load: [f64; 2],
-    /// Of the pen lift, in counts.
+    /// Position of the pen lift in counts.
     pub lift: i64,
 }
 
-/// A step of the pen lift.
+/// Step of the pen lift.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Lifting {
-    /// The move that it was for.
+    /// Index of its move.
     pub index: usize,
-    /// The pen goes down.
+    /// True if the pen goes down.
     pub down: bool,
     /// Tick of the control signal.
     pub fired: u64,
-    /// Tick in which it was complete.
+    /// Tick of completion.
     pub completed: u64,
-    /// Lead time that was applied, in CKs.
+    /// Lead time applied, in CKs.
     pub lead: u64,
-    /// Way past the target in the direction of the move, in counts.
+    /// Distance past the target in the direction of the move, in counts.
     pub error: i64,
-    /// Lead time that was learned, in CKs.
+    /// Lead time learned, in CKs.
     pub learned: Option<u64>,
 }
 
-/// When a move of the servos was under way.
+/// Time of a servo move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Timed {
-    /// The tick in which it was begun.
+    /// Tick in which it began.
     pub begun: u64,
-    /// The tick in which the motors were in position.
+    /// Tick in which the motors were in position.
     pub ended: u64,
 }
 
-/// What came of a job.
+/// Result of a job.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Played {
-    /// Ticks of the run.
+    /// Number of ticks of the run.
     pub ticks: u64,
-    /// The servos, sampling time by sampling time; none of [`play_each`].
+    /// States of the servos, one per sampling time; empty for [`play_each`].
     pub frames: Vec<Frame>,
-    /// The steppers at the end of each unit time, in steps from where the job begins; none of
-    /// [`play_each`].
+    /// Positions of the steppers at the end of each unit time, in steps from the start of the job;
+    /// empty for [`play_each`].
     pub steps: Vec<[i64; 2]>,
-    /// The ticks of these.
+    /// Ticks of these positions.
     pub step_ticks: Vec<u64>,
-    /// Pulses of the steppers, either way.
+    /// Number of pulses of the steppers, in either direction.
     pub pulses: [u64; 2],
-    /// The moves of the servos.
+    /// Moves of the servos.
     pub moves: Vec<Timed>,
-    /// The steps of the pen lift.
+    /// Steps of the pen lift.
     pub liftings: Vec<Lifting>,
     /// Position commands at the end, in counts.
     pub command: [i64; 2],
@@ -104,56 +104,57 @@ pub struct Played {
     pub motor: [i64; 2],
     /// Steppers at the end, in steps.
     pub stepper: [i64; 2],
-    /// The job's end was reached: all moves done, motors on their last count, steppers at rest.
+    /// True if the job's end was reached: all moves done, motors on their last count, steppers at
+    /// rest.
     pub settled: bool,
-    /// Something came too late, or could not be counted.
+    /// True if something was too late or could not be counted.
     pub fault: bool,
-    /// What of it.
+    /// Causes of the fault.
     pub causes: Causes,
 }
 
-/// What came too late, or could not be counted.
+/// Causes of a fault: true for each part that was too late or could not be counted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Causes {
-    /// A scan of the linear interpolator.
+    /// Scan of the linear interpolator.
     pub scan: bool,
-    /// A sampling time of the arc generator or of the trajectory controller.
+    /// Sampling time of the arc generator or of the trajectory controller.
     pub sample: bool,
-    /// An edge of a servo's encoder.
+    /// Edge of a servo's encoder.
     pub servo: bool,
-    /// An edge of the pen lift's encoder.
+    /// Edge of the pen lift's encoder.
     pub lift: bool,
 }
 
-/// An event of a run, given in order.
+/// Event of a run; events come in order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
-    /// A sampling time of the servos.
+    /// Sampling time of the servos.
     Frame(Frame),
     /// End of a unit time of the steppers.
     Unit {
-        /// Its last tick.
+        /// Last tick of the unit time.
         tick: u64,
-        /// Positions in steps from where the job begins.
+        /// Positions in steps from the start of the job.
         steps: [i64; 2],
     },
-    /// A move of the servos begins in this tick, behind the frame of the tick.
+    /// A move of the servos begins in this tick, after the frame of the tick.
     Begun(u64),
-    /// The motors are in position in this tick, behind the frame of the tick.
+    /// The motors are in position in this tick, after the frame of the tick.
     Ended(u64),
-    /// The pen lift is stopped or at rest in this tick, before the frame of the tick.
+    /// The pen lift stops or comes to rest in this tick, before the frame of the tick.
     Lift(u64),
 }
 
-/// Writes down what a tick shows.
+/// Recorder of ticks.
 struct Bench<'a> {
     see: See,
     each: &'a mut dyn FnMut(Event),
     played: Played,
     lifting: Option<Lifting>,
-    /// Sampling times in which the motors have not come to rest.
+    /// Number of sampling times for which the motors have not come to rest.
     waiting: usize,
-    /// Ticks before the steppers' first pattern.
+    /// True once the steppers' first pattern has begun.
     begun: bool,
 }
 
@@ -161,7 +162,7 @@ impl Bench<'_> {
     fn take(&mut self, now: &Sample<'_, Machine>, around: &mut Surroundings, host: &Host<'_>) {
         let (see, played) = (&self.see, &mut self.played);
         for (driver, (step, dir)) in around.drivers.iter_mut().zip(see.lines) {
-            // The drivers ask for nothing here; the table was compiled for what they need.
+            // The drivers have no requirements here; the table was compiled for theirs.
             let _ = driver.sample(now.tick, now.get(step), now.get(dir));
         }
         let pulsing = now.get(see.pulse_busy);
@@ -233,11 +234,11 @@ impl Bench<'_> {
     }
 }
 
-/// Plays a program, seen by `observer` too, until steppers and servos have done the job, or the
-/// motors do not settle for too long.
+/// Plays a program until steppers and servos have done the job, or the motors do not settle for
+/// too long; `observer` sees it too.
 ///
 /// # Errors
-/// A parameter of a plant is out of range, or what `observer` objects to.
+/// Returns an error if a parameter of a plant is out of range, or the error of `observer`.
 pub fn play(
     circuit: &Machine,
     program: &Program,
@@ -262,11 +263,11 @@ pub fn play(
     })
 }
 
-/// Plays a program as [`play`] does and gives the events one by one, so that a run of any length
-/// takes no memory for them.
+/// Plays a program as [`play`] does and passes the events to `each`, so that memory use does not
+/// depend on the length of the run.
 ///
 /// # Errors
-/// Those of [`play`].
+/// Returns the errors of [`play`].
 pub fn play_each(
     circuit: &Machine,
     program: &Program,

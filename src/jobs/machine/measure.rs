@@ -1,4 +1,5 @@
-//! What came out: how far both machines left the job's path on the way, why, and where they ended.
+//! Measures of a run: the deviation of both machines from the job's path, its reasons, and their
+//! end positions.
 
 mod ends;
 mod measuring;
@@ -17,20 +18,21 @@ use crate::path::vector::{distance, dot, sub, unit};
 use crate::plan::{Plan, PlanError};
 use std::ops::RangeInclusive;
 
-/// Why a machine is beside the path.
+/// Reason for a deviation from the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reason {
-    /// Steppers stand on whole steps only.
+    /// Steppers have whole steps only.
     WholeSteps,
-    /// In a unit time steppers go straight on, also where the path turns.
+    /// In a unit time steppers move straight, also if the path curves.
     Chord,
-    /// A unit time's count of steps that no half-period gives, made up for in the next.
+    /// A count of steps in a unit time for which there is no half-period, compensated in the next.
     Table,
     /// Commands of the servos are whole counts.
     WholeCounts,
     /// Blends cut the ends of an arc.
     Blend,
-    /// The servos' models: they lag, less what the correction makes up for, and run on past an end.
+    /// The servos' models lag, apart from the part that the correction compensates, and overshoot
+    /// an end.
     Lag,
     /// Motors follow their models.
     Motor,
@@ -39,7 +41,7 @@ pub enum Reason {
 }
 
 impl Reason {
-    /// In words.
+    /// Returns the reason in words.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -55,106 +57,106 @@ impl Reason {
     }
 }
 
-/// Where a machine is farthest from a piece of the path.
+/// Greatest deviation of a machine from a piece of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Farthest {
-    /// The distance in mm.
+    /// Distance in mm.
     pub mm: f64,
-    /// The tick.
+    /// Tick of the deviation.
     pub tick: u64,
-    /// What most of it comes from.
+    /// Reason for the largest part of it.
     pub reason: Reason,
-    /// How much of it comes from that, in mm: more than all where others work against it.
+    /// Part of it with that reason, in mm: more than all if others work against it.
     pub share_mm: f64,
 }
 
-/// The steppers on a piece of the path.
+/// Measures of the steppers on a piece of the path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steppers {
-    /// The ticks in which they were at it.
+    /// Ticks in which they were on it.
     pub ticks: RangeInclusive<u64>,
-    /// Farthest from it; none where no unit time ended on it.
+    /// Greatest deviation; `None` if no unit time ended on it.
     pub farthest: Option<Farthest>,
 }
 
-/// The servos on a piece of the path.
+/// Measures of the servos on a piece of the path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Servos {
-    /// The ticks from its beginning until both motors were in position.
+    /// Ticks from its beginning until both motors were in position.
     pub ticks: RangeInclusive<u64>,
-    /// Largest distance of the commands from it, in mm.
+    /// Greatest distance of the commands from it, in mm.
     pub command_mm: f64,
-    /// The same of the models.
+    /// Greatest distance of the models from it, in mm.
     pub model_mm: f64,
-    /// The same of the motors, by their encoders.
+    /// Greatest distance of the motors from it by their encoders, in mm.
     pub motor_mm: f64,
-    /// The loads, where they are farthest.
+    /// Greatest deviation of the loads.
     pub load: Farthest,
-    /// Counts by which the corrected command ends beside the piece's end.
+    /// Distance of the corrected command's end from the piece's end, in counts.
     pub left_counts: [i64; 2],
 }
 
-/// A piece of the path by both machines.
+/// Measures of a piece of the path for both machines.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PieceMeasured {
-    /// The piece.
+    /// Index of the piece.
     pub piece: usize,
-    /// The steppers.
+    /// Measures of the steppers.
     pub steppers: Steppers,
-    /// The servos; none where they did not come to it, or it has no length.
+    /// Measures of the servos; `None` if they did not reach it, or it has no length.
     pub servos: Option<Servos>,
 }
 
-/// A point beside the path at a sampling time or the end of a unit time.
+/// Point beside the path at a sampling time or the end of a unit time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Beside {
-    /// The tick.
+    /// Tick.
     pub tick: u64,
-    /// The piece.
+    /// Index of the piece.
     pub piece: usize,
-    /// Where the machine was, in mm.
+    /// Position of the machine in mm.
     pub actual: Point,
-    /// The nearest point of the piece.
+    /// Nearest point of the piece.
     pub nearest: Point,
 }
 
 impl Beside {
-    /// Distance of both in mm.
+    /// Returns the distance of both points in mm.
     #[must_use]
     pub fn mm(&self) -> f64 {
         distance(self.actual, self.nearest)
     }
 }
 
-/// Where the time of the servos went, in ticks.
+/// Use of the servos' time, in ticks.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Times {
-    /// From the first step of the steppers' table to its end.
+    /// Ticks from the first step of the steppers' table to its end.
     pub steppers: u64,
-    /// From power-on until the servos' last move is over.
+    /// Ticks from power-on until the end of the servos' last move.
     pub servos: u64,
-    /// Their commands were on the way.
+    /// Ticks in which their commands moved.
     pub moving: u64,
-    /// The commands stood, the motors came.
+    /// Ticks in which the commands were constant and the motors settled.
     pub settling: u64,
 }
 
-/// Measured on a run.
+/// Measures of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// Every piece.
+    /// Measures of each piece.
     pub pieces: Vec<PieceMeasured>,
-    /// Times.
+    /// Use of the time.
     pub times: Times,
-    /// Ends.
+    /// End positions.
     pub ends: Ends,
 }
 
 impl Measured {
-    /// Measures the whole record of a run of a drawing's program.
+    /// Measures the complete record of a run of a drawing's program.
     ///
     /// # Errors
-    /// The path cannot be planned, which a program that is there rules out.
+    /// Returns an error if the path cannot be planned, which an existing program rules out.
     pub fn of(
         drawing: &Drawing,
         program: &Program,
@@ -186,7 +188,7 @@ impl Measured {
     }
 }
 
-/// The pieces of the job, as they should be.
+/// Nominal pieces of the job.
 #[derive(Clone, Copy)]
 struct Path<'a> {
     start: Point,
@@ -203,13 +205,13 @@ impl Path<'_> {
         own.course.nearest(from, own.to, point)
     }
 
-    /// How far a point is off a piece.
+    /// Returns the vector from the nearest point of a piece to a point.
     fn off(&self, piece: usize, point: Point) -> Point {
         sub(point, self.nearest(piece, point))
     }
 }
 
-/// The largest of the shares in the direction of all.
+/// Returns the greatest share in the direction of the total deviation.
 fn farthest<const N: usize>(tick: u64, off: Point, shares: [(Reason, Point); N]) -> Farthest {
     let direction = unit(off);
     let mut found = Farthest {
@@ -225,7 +227,7 @@ fn farthest<const N: usize>(tick: u64, off: Point, shares: [(Reason, Point); N])
         }
     }
     if !found.share_mm.is_finite() {
-        // Nothing is off, in no direction.
+        // No deviation and no direction.
         found.share_mm = 0.0;
     }
     found

@@ -1,5 +1,5 @@
-//! A job as all circuits are given it: a table for the steppers; moves for the servos, each from
-//! rest to rest, with the words of its line or arc and of its length in time.
+//! Program of a job for all circuits: a table for the steppers; moves for the servos, each from
+//! rest to rest, with the words of its line or arc and of its length over time.
 
 use super::settings::Settings;
 use crate::circuits::arc_generator::Widths as ArcWidths;
@@ -24,40 +24,40 @@ use crate::path::record::Record;
 use crate::path::vector::{add, sub};
 use crate::settings::SettingError;
 
-/// What a move of the servos is.
+/// Kind of a servo move.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Way {
-    /// A target for the linear interpolator.
+    /// Target for the linear interpolator.
     Line {
-        /// Steady speed: counts of the master axis a scan, times [`SPEED_ONE`].
+        /// Steady speed: counts of the master axis per scan, times [`SPEED_ONE`].
         speed: u64,
     },
     /// Records for the arc generator.
     Arc {
-        /// How many of [`Program::arcs`] it is made of.
+        /// Number of its records in [`Program::arcs`].
         records: usize,
     },
 }
 
-/// A move of the servos, from rest to rest.
+/// Move of the servos, from rest to rest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Move {
-    /// The piece of the job that it is.
+    /// Index of its piece of the job.
     pub piece: usize,
-    /// Line of the input it stands in.
+    /// Line of the input.
     pub line: usize,
-    /// Pen up.
+    /// True if the pen is up.
     pub rapid: bool,
-    /// By which circuit.
+    /// Circuit that makes it.
     pub way: Way,
-    /// Where it ends, in counts from where the job begins.
+    /// End, in counts from the start of the job.
     pub to: [i64; 2],
-    /// How many of [`Program::profile`] its length in time is made of.
+    /// Number of the records of its length over time in [`Program::profile`].
     pub records: usize,
 }
 
 impl Move {
-    /// How many records of the arc generator it is made of.
+    /// Returns the number of its records for the arc generator.
     #[must_use]
     pub fn arcs(&self) -> usize {
         match self.way {
@@ -67,45 +67,45 @@ impl Move {
     }
 }
 
-/// A job, ready to be run.
+/// Job that is ready to run.
 #[derive(Debug, Clone)]
 pub struct Program {
-    /// The steppers' pattern memory.
+    /// Pattern memory of the steppers.
     pub table: Table,
-    /// What came of its compilation.
+    /// Report on its compilation.
     pub report: Report,
-    /// The pieces of the job, in mm.
+    /// Pieces of the job in mm.
     pub pieces: Vec<Piece>,
-    /// Where it begins.
+    /// Start in mm.
     pub start: Point,
-    /// The path and the words of the servos' settings.
+    /// Path, and words of the servos' settings.
     pub path: Path,
-    /// The servos' moves, in order.
+    /// Moves of the servos, in order.
     pub moves: Vec<Move>,
-    /// Arcs and their blends, move after move.
+    /// Records of arcs and their blends, move after move.
     pub arcs: Vec<Record>,
-    /// Length in time, move after move.
+    /// Records of the length over time, move after move.
     pub profile: Vec<Record>,
-    /// Acceleration time of lines, in scans.
+    /// Acceleration time of lines in scans.
     pub ramp_scans: u64,
 }
 
-/// Why there is no program.
+/// Reason why there is no program.
 #[derive(Debug, thiserror::Error)]
 pub enum ProgramError {
-    /// A setting.
+    /// A setting is at fault.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// A setting of the pen lift's compensator.
+    /// A setting of the pen lift's compensator is at fault.
     #[error(transparent)]
     Lift(SettingError),
-    /// A piece of the path.
+    /// A piece of the path is at fault.
     #[error(transparent)]
     Path(#[from] PathError),
-    /// A setting of the servos, or of one axis.
+    /// A setting of the servos, or of one axis, is at fault.
     #[error(transparent)]
     Trajectory(#[from] TrajectoryError),
-    /// The steppers' table.
+    /// The steppers' table cannot be made.
     #[error(transparent)]
     Table(#[from] TableError),
 }
@@ -114,8 +114,8 @@ impl Program {
     /// Prepares a drawing or a part program in the X-Y plane.
     ///
     /// # Errors
-    /// The first setting or move at fault: what does not fit into a word, a move out of the plane,
-    /// more segments than the trajectory controller holds.
+    /// Returns the first setting or move at fault: a value that does not fit into its word, a move
+    /// out of the plane, more segments than the trajectory controller holds.
     pub fn of(drawing: &Drawing, settings: &Settings) -> Result<Self, ProgramError> {
         settings.validate()?;
         settings.lift().validate().map_err(ProgramError::Lift)?;
@@ -165,7 +165,7 @@ impl Program {
         let origin = counts(drawing.start);
         let unit = self.path.motion.units_per_mm;
         let limits = spans(&self.path.path, &self.path.motion);
-        // Where the arc generator stands: it counts the ways on arcs only.
+        // Position of the arc generator: it counts motion on arcs only.
         let mut arc_at = [0.0; 2];
         for (stretch, limit) in self.path.path.stretches.iter().zip(&limits) {
             let index = stretch.piece;
@@ -234,15 +234,15 @@ impl Program {
     }
 }
 
-/// The word for a speed in mm/s over a line's way in counts, and the speed that it is: the
-/// interpolator's has a fraction of so many bits, and the profile is to go as fast.
+/// Returns the word of a speed in mm/s over a line's distance in counts, and the exact speed of
+/// that word, which the profile must have too: the interpolator's speed has limited fraction bits.
 fn line_speed(way: [f64; 2], speed: f64, settings: &Settings) -> Result<(u64, f64), Reason> {
     let (length, master) = (way[0].hypot(way[1]), way[0].abs().max(way[1].abs()));
     if master == 0.0 {
         // Shorter than a count: only the profile moves.
         return Ok((1, speed));
     }
-    // Counts a scan, at a millimetre a second.
+    // Counts per scan at one millimetre per second.
     let scale = settings.counts_per_mm * settings.scan_s() * master / length;
     let least = SLOWEST / scale;
     let word = speed_word(speed * scale).filter(|_| speed >= least);
@@ -250,7 +250,7 @@ fn line_speed(way: [f64; 2], speed: f64, settings: &Settings) -> Result<(u64, f6
     Ok((word, word as f64 / SPEED_ONE as f64 / scale))
 }
 
-/// An arc's piece, begun elsewhere.
+/// Returns an arc's piece moved to another start.
 fn moved(piece: &Piece, circle: &Circle, start: Point, speed: f64) -> Piece {
     let by = sub(start, circle.start);
     let circle = Circle {
@@ -266,8 +266,8 @@ fn moved(piece: &Piece, circle: &Circle, start: Point, speed: f64) -> Piece {
     }
 }
 
-/// A trapezoid of speed over a stretch of the path; a short one keeps its times and has a lower
-/// peak, as the interpolator's.
+/// Returns a trapezoidal speed profile over a part of the path; a short one keeps its times and
+/// has a lower peak, as in the interpolator.
 fn length_in_time(begin: u64, length: u64, speed: f64, ramp_s: f64) -> Profile {
     let span = Span {
         length,
@@ -291,10 +291,11 @@ fn length_in_time(begin: u64, length: u64, speed: f64, ramp_s: f64) -> Profile {
 mod tests {
     use super::*;
 
-    /// The speed that the profile is given is that of the interpolator's word, on any slope.
+    /// The profile's speed is that of the interpolator's word, on any slope.
     #[test]
     fn a_line_goes_as_fast_as_its_word_says() {
-        // A thousand counts a millimetre, a scan of a millisecond: a count is a millimetre a second.
+        // 1000 counts per millimetre and a scan of a millisecond: one count per scan is one
+        // millimetre per second.
         let settings = Settings::default();
         let speed = |way, speed| line_speed(way, speed, &settings);
         let (word, exact) = speed([4000.0, 0.0], 25.75).unwrap();
@@ -303,7 +304,7 @@ mod tests {
         let (word, exact) = speed([4000.0, 0.0], 25.0 + 1.9 / 4096.0).unwrap();
         assert_eq!(word, 25 * SPEED_ONE + 1);
         assert!((exact - 25.0 - 1.0 / 4096.0).abs() < 1e-9, "{exact}");
-        // Three, four, five: the master axis has four parts of five.
+        // Three, four, five: the master axis has four fifths of the speed.
         let (word, exact) = speed([-3000.0, 4000.0], 25.0).unwrap();
         assert_eq!(word, 20 * SPEED_ONE);
         assert!((exact - 25.0).abs() < 1e-9, "{exact}");

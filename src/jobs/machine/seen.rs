@@ -1,10 +1,10 @@
-//! Nets and registers of the machine that a job looks at.
+//! Nets and registers of the machine that a job observes.
 
 use crate::circuits::machine::Machine;
 use crate::hdl::{At, Sample, Watcher};
 use std::array::from_fn;
 
-/// Signals of the machine that a job looks at.
+/// Signals of the machine that a job observes.
 pub(super) struct See {
     /// Step and direction of X and Y.
     pub(super) lines: [(At<bool>, At<bool>); 2],
@@ -26,7 +26,7 @@ pub(super) struct See {
 }
 
 impl See {
-    /// True if a tick that shows the same again is written down as this one.
+    /// True if a tick that is equal to this one gives equal records.
     pub(super) fn is_quiet(&self, now: &Sample<'_, Machine>) -> bool {
         let lift = &self.lift;
         let strobes = [
@@ -40,7 +40,7 @@ impl See {
     }
 }
 
-/// Signals of the pen lift that a job looks at.
+/// Signals of the pen lift that a job observes.
 pub(super) struct SeeLift {
     pub(super) fire: At<bool>,
     pub(super) complete: At<bool>,

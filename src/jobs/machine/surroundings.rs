@@ -1,4 +1,4 @@
-//! What is around the machine: steppers, servos with their loads, and the pen lift.
+//! Surroundings of the machine: steppers, servos with their loads, and the pen lift.
 
 use super::settings::Settings;
 use super::waves::Signals;
@@ -12,7 +12,7 @@ use crate::plant::{Ahead, BrakedBody, Plant, Plants, TwoMassAxis};
 use crate::settings::SettingError;
 use std::array::from_fn;
 
-/// What the plants are driven by.
+/// Signals that drive the plants.
 pub(super) struct Drives {
     torque: [At<i64>; 2],
     speed: At<u64>,
@@ -38,19 +38,20 @@ impl Drives {
 /// Everything around the circuit.
 pub(super) struct Surroundings {
     drives: Drives,
-    /// Motors with what they move, ahead of the circuit where it leaves them alone.
+    /// Motors with their loads, simulated ahead of the circuit while it does not change their
+    /// inputs.
     pub(super) plants: Ahead<Bodies, [(bool, bool); 3]>,
     /// Drivers of the steppers X and Y.
     pub(super) drivers: [Driver; 2],
 }
 
-/// Motors with what they move.
+/// Motors with their loads.
 pub(super) struct Bodies {
     pub(super) servos: [TwoMassAxis; 2],
     lift: BrakedBody,
 }
 
-/// What the plants are driven by in a tick.
+/// Values that drive the plants in a tick.
 #[derive(Clone, Copy)]
 pub(super) struct Driven {
     torque: [i64; 2],
@@ -82,7 +83,7 @@ impl Plants for Bodies {
 }
 
 impl Bodies {
-    /// A tick; the encoders' channels of X, of Y and of the lift.
+    /// Advances one tick; returns the encoders' channels of X, of Y and of the lift.
     #[inline]
     pub(super) fn step(&mut self, by: &Driven) -> [(bool, bool); 3] {
         let [x, y] = &mut self.servos;
@@ -110,7 +111,7 @@ impl Surroundings {
         })
     }
 
-    /// What the registers drive the plants by.
+    /// Returns the values of the registers that drive the plants.
     pub(super) fn driven(&self, now: &State<'_, Machine>) -> Driven {
         let drives = &self.drives;
         let speed = now.get(drives.speed) * u64::from(SPEED_UNIT_COUNTS_PER_S);
@@ -123,7 +124,7 @@ impl Surroundings {
         }
     }
 
-    /// Steps the plants to the tick to come, and gives the encoders' channels.
+    /// Steps the plants to the next tick, and sets the encoders' channels.
     pub(super) fn step(&mut self, by: &Driven, i: &mut In<Value>) {
         let [x, y, lift] = self.plants.step(|plants| plants.step(by));
         i.trajectory.a.copy_from_slice(&[x.0, y.0]);
@@ -131,7 +132,7 @@ impl Surroundings {
         (i.lift.a, i.lift.b) = lift;
     }
 
-    /// What is shown of it in the waves.
+    /// Returns the signals for the waves.
     pub(super) fn signals(&self) -> Signals<Value> {
         let Bodies { servos, lift } = &self.plants.plants;
         Signals::of(servos, lift, &self.drivers)

@@ -1,4 +1,4 @@
-//! What the plants of the machine show in its waves.
+//! Signals of the plants in the machine's waves.
 
 use crate::hdl::{Beside, Value, View, signals};
 use crate::jobs::pulse_interpolator::step_dir::Driver;
@@ -9,7 +9,7 @@ use crate::plant::{BrakedBody, TwoMassAxis};
 const SERVOS: Machine = Machine { axes: 2 };
 
 signals! { for Plants as _c;
-    /// Motors, loads and drivers as they really are.
+    /// True motion of motors, loads and drivers.
     pub struct Signals {
         /// Servo of X.
         pub servo_x: TwoMassSignals(&SERVOS),
@@ -24,7 +24,7 @@ signals! { for Plants as _c;
     }
 }
 
-/// The plants beside the machine.
+/// Plants beside the machine.
 #[derive(Debug, Clone)]
 pub struct Plants;
 
@@ -34,7 +34,7 @@ impl Beside for Plants {
 }
 
 impl Signals<Value> {
-    /// The plants as they stand.
+    /// Returns the current signals of the plants.
     #[must_use]
     pub fn of(
         [x, y]: &[TwoMassAxis; 2],

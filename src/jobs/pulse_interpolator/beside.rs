@@ -1,8 +1,9 @@
-//! The program of a table on the conventional device of Fig. 5, beside the interpolator.
+//! Program of a table on the conventional device of Fig. 5, for comparison with the interpolator.
 //!
-//! Its computer 7 gives a move for every unit time, since the demand of each is another: how far the
-//! path goes in it, rounded. A unit time has as many steps as the driver's shortest pulse lets it
-//! have; what is above comes with the next. Or it gives each line and arc as one [move](super::moves).
+//! Its computer 7 gives a move for every unit time, since their amounts differ: the rounded
+//! distance that the path moves in it. A unit time is limited to the number of steps that the
+//! driver's shortest pulse allows; the rest comes with the next. Alternatively it gives each line
+//! and arc as one [move](super::moves).
 
 use super::job::{fast_forward, group};
 use super::motors::{Motors, StepMotors};
@@ -16,32 +17,32 @@ use crate::hdl::{At, Observer, RunError, Sample, Simulator, Value, Watcher, zero
 use crate::input::COORDINATES;
 use crate::settings::JobError;
 
-/// A move.
+/// Move of the device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Order {
-    /// Steps of each axis, X first; 0 for those not driven, and on an arc.
+    /// Steps of each axis, X first; 0 for axes that are not driven, and on an arc.
     pub delta: [i64; COORDINATES],
-    /// Unit times that it takes.
+    /// Number of unit times.
     pub units: u32,
-    /// T in ticks.
+    /// Unit time T in ticks.
     pub period: u32,
-    /// Parameters of an arc of X and Y; none of a line.
+    /// Parameters of an arc in X and Y; `None` for a line.
     pub arc: Option<Arc>,
 }
 
 /// Parameters of an arc, as words of [`ArcMove`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Arc {
-    /// Its radius.
+    /// Radius.
     pub radius: u64,
-    /// Where it begins.
+    /// Start angle.
     pub angle: u64,
-    /// Turn of a unit time.
+    /// Rotation per unit time.
     pub turn: u64,
 }
 
-/// The moves that bring the axes where a path demands them at the end of every unit time, for a
-/// driver that wants `timing`.
+/// Returns the moves that bring the axes to a path's positions at the end of every unit time, for
+/// a driver with `timing`.
 #[must_use]
 pub fn orders(demands: &[UnitDemand], timing: &StepTiming) -> Vec<Order> {
     let greatest = (1 << ConventionalWidths::default().distance) - 1;
@@ -73,8 +74,8 @@ pub fn orders(demands: &[UnitDemand], timing: &StepTiming) -> Vec<Order> {
     }
 }
 
-/// The conventional device for so many axes, which takes arcs where there are some; T of the first move
-/// is in force at power-on.
+/// Returns the conventional device for `axes` axes, with arcs if a move has one; T of the first
+/// move is in force at power-on.
 #[must_use]
 pub fn device(axes: usize, orders: &[Order]) -> Conventional {
     Conventional {
@@ -85,28 +86,29 @@ pub fn device(axes: usize, orders: &[Order]) -> Conventional {
     }
 }
 
-/// What was seen at the drivers of the conventional device.
+/// Result at the drivers of the conventional device.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Beside {
-    /// Ticks of the run.
+    /// Number of ticks of the run.
     pub ticks: u64,
-    /// The tick of the first step on any axis.
+    /// Tick of the first step on any axis.
     pub first_step: Option<u64>,
-    /// Unit times without pulses, because the next of a move was not prepared.
+    /// Number of unit times without pulses, because the next one of a move was not prepared.
     pub late_units: u64,
-    /// Most ticks from an RST until the next unit time is prepared: the shortest T in which it is.
+    /// Greatest number of ticks from an RST until the next unit time is prepared: the least
+    /// possible T.
     pub needed: u64,
-    /// Positions at the end of every unit time of a move in steps from where the axes began, X first,
+    /// Positions at the end of every unit time of a move, in steps from the axes' start, X first,
     /// unit after unit.
     pub positions: Vec<i32>,
-    /// Of each axis, largest distance of a pulse from where an even motion through its unit time has
-    /// it, in ticks.
+    /// Jitter of each axis: greatest distance in ticks of a pulse from its time in uniform motion
+    /// through its unit time.
     pub jitter: Vec<f64>,
-    /// Of each axis, the shortest times on the step and direction lines.
+    /// Least times on the step and direction lines of each axis.
     pub minima: Vec<TimingMinima>,
 }
 
-/// What is looked at.
+/// Observed signals.
 struct See {
     step: Vec<At<bool>>,
     dir: Vec<At<bool>>,
@@ -131,20 +133,20 @@ impl See {
     }
 }
 
-/// The computer 7, and drivers on all axes.
+/// Computer 7, and drivers on all axes.
 struct Bench<'o> {
     orders: &'o [Order],
-    /// Unit times of all moves.
+    /// Number of unit times of all moves.
     units: usize,
-    /// The port of an arc when none is given, where the device takes arcs.
+    /// Value of an arc port when no move is given, if the device supports arcs.
     no_arcs: Vec<ArcMove<Value>>,
     given: usize,
-    /// A move may be given with the tick to come.
+    /// True if a move may be given with the next tick.
     ready: bool,
     axes: Vec<Paced>,
-    /// The first tick of the unit time under way.
+    /// First tick of the current unit time.
     begun: u64,
-    /// The RST since which the next unit time is computed.
+    /// RST since which the next unit time is computed.
     since: Option<u64>,
     seen: Beside,
 }
@@ -154,12 +156,12 @@ impl Bench<'_> {
         self.unit() == self.units
     }
 
-    /// The unit time of a move that is under way.
+    /// Returns the current unit time of a move.
     fn unit(&self) -> usize {
         self.seen.positions.len() / self.axes.len()
     }
 
-    /// The ports in of the tick to come, and whether they are such for this tick only.
+    /// Returns the inputs of the next tick, and true if they are for that tick only.
     fn ports(&mut self) -> (conventional::In<Value>, bool) {
         let order = self.orders.get(self.given).filter(|_| self.ready);
         self.given += usize::from(order.is_some());
@@ -190,7 +192,7 @@ impl Bench<'_> {
         (conventional::In { order, arcs }, true)
     }
 
-    /// Takes down a tick, in which a move is given or not.
+    /// Records a tick; `given` is true if a move was given in it.
     fn take(&mut self, now: &Sample<'_, Conventional>, see: &See, given: bool) {
         let tick = now.tick;
         for (axis, paced) in self.axes.iter_mut().enumerate() {
@@ -208,7 +210,8 @@ impl Bench<'_> {
         if !rst {
             return;
         }
-        // The one that runs at power-on has no pulses, nor has any until the first is prepared.
+        // The unit time that runs at power-on has no pulses, nor has any until the first is
+        // prepared.
         let began = !self.seen.positions.is_empty() || now.get(see.busy);
         self.seen.late_units += u64::from(began && now.get(see.late));
         if now.get(see.busy) {
@@ -225,11 +228,11 @@ impl Bench<'_> {
     }
 }
 
-/// Plays moves on the conventional device, seen by `observer` too; step motors on its drivers stand in
-/// the waves beside it ([`StepMotors`]).
+/// Plays moves on the conventional device; `observer` sees it too. Stepper motors on its drivers
+/// are beside it in the waves ([`StepMotors`]).
 ///
 /// # Errors
-/// `observer` objects.
+/// Returns the error of `observer`.
 pub fn play(
     circuit: &Conventional,
     orders: &[Order],
@@ -282,11 +285,11 @@ pub fn play(
     })
 }
 
-/// The shortest unit time in which the interpolator has the words of `table` in time, where its
-/// control computer writes them meanwhile: found by playing it at 1, 2, … ticks.
+/// Returns the least unit time for which the interpolator has the words of `table` in time while
+/// its control computer writes them; found by playing it at 1, 2, … ticks.
 ///
 /// # Errors
-/// As [`fast_forward`].
+/// Returns the errors of [`fast_forward`].
 pub fn least_period(table: &Table, variant: Variant) -> Result<u32, JobError> {
     let mut period = 1;
     loop {
@@ -331,12 +334,13 @@ mod tests {
             [[3, -12, 0], [12, -12, 0], [5, -7, 0]]
         );
         assert!(deltas(&[]).is_empty());
-        // The path is over, and the axis is not there yet.
+        // The path has ended, and the axis has not arrived yet.
         let found = orders(&demands(129, &[[0, 25, 0]]), &timing);
         let seen = run(2, &found);
         assert_eq!(seen.positions, [0, 12, 0, 24, 0, 25]);
         assert_eq!((seen.late_units, seen.minima[1].high), (0, Some(5)));
-        // n = 5 where half a pulse is due every 5 3/8 ticks: the last is early by 23 times the rest.
+        // n = 5 for half a pulse per 5 3/8 ticks: the last one is early by 23 times the
+        // difference.
         assert_eq!(seen.jitter, [0.0, 23.0 * 3.0 / 8.0]);
     }
 

@@ -1,10 +1,11 @@
-//! The control computer 2, behavioural: plays a table of any length through the pattern memory.
+//! Behavioural model of control computer 2: plays a table of any length through the pattern
+//! memory.
 //!
 //! The memory is used as two halves. While the pattern in one half plays, the computer writes the
-//! next words into the other, one word of one axis a tick, and leaves the command to go on there;
-//! a half is written again only when the command that ended its pattern has been taken. A new unit
-//! time T begins a new pattern. Where the computer does not keep up, unit times without pulses
-//! stand between two patterns; no pulse is lost.
+//! next words into the other, one word of one axis per tick, and leaves the command to continue
+//! there. A half is written again only when the command that ended its pattern has been taken. A
+//! new unit time T begins a new pattern. If the computer is too slow, unit times without pulses
+//! are inserted between two patterns; no pulse is lost.
 
 use super::table::Table;
 use crate::circuits::pulse_interpolator::Group;
@@ -20,25 +21,25 @@ struct Chunk {
     period: u32,
 }
 
-/// A control computer with a table to play.
+/// Control computer with a table to play.
 #[derive(Debug, Clone)]
 pub struct ControlComputer<'t> {
     axes: usize,
-    /// Words of an axis in one half of the memory.
+    /// Number of words of an axis in one half of the memory.
     half: usize,
-    /// All outputs low.
+    /// Inputs of the group with all bits low.
     quiet: In<Value>,
     table: &'t Table,
     chunks: Vec<Chunk>,
-    /// The chunk that is being written, or waits to be.
+    /// Chunk that is being written, or waits to be.
     chunk: usize,
-    /// Words of it that are written, over all axes.
+    /// Number of its words written, over all axes.
     written: usize,
     commands: usize,
 }
 
 impl<'t> ControlComputer<'t> {
-    /// A computer that plays `table` once on a group.
+    /// Creates a computer that plays `table` once on a group.
     pub fn new(group: &Group, table: &'t Table) -> Self {
         let half = 1 << (group.widths.address - 1);
         let chunks = table.patterns().iter().flat_map(|pattern| {
@@ -60,19 +61,19 @@ impl<'t> ControlComputer<'t> {
         }
     }
 
-    /// Whether every command is given.
+    /// True if every command has been given.
     pub fn has_given_all(&self) -> bool {
         self.commands == self.chunks.len()
     }
 
-    /// Its outputs in one tick, in which the group's port holds a command or not; none where all
-    /// stay low until a command is taken, or for good.
+    /// Returns its outputs in one tick, in which the group's port holds a command or not; `None`
+    /// if all stay low until a command is taken, or for ever.
     pub fn drive(&mut self, pending: bool) -> Option<In<Value>> {
         let chunk = self.chunks.get(self.chunk).copied()?;
         let taken = self.commands - usize::from(pending);
         let base = (self.chunk % 2 * self.half) as u64;
         if self.written < chunk.length * self.axes {
-            // The half is free when the pattern after the one it holds has begun.
+            // The half is free when the pattern after the one in it has begun.
             if self.chunk >= 2 && taken < self.chunk {
                 return None;
             }

@@ -1,4 +1,4 @@
-//! Two groups that play patterns of their memories, each at unit times of its own (¶0032).
+//! Two groups that play patterns of their memories, each with its own unit times (¶0032).
 
 use super::Stored;
 use super::job::{Drivers, Played};
@@ -10,14 +10,14 @@ use std::ops::ControlFlow;
 /// Patterns and commands of a group.
 #[derive(Debug, Clone)]
 pub struct Member {
-    /// Memory, and the commands of its control computer.
+    /// Memory, and commands of its control computer.
     pub stored: Stored,
     /// Tick of its first command, from 0; its pattern begins two ticks later.
     pub command_tick: u64,
 }
 
 impl Member {
-    /// Ticks until it is done, if no unit time is silent between two patterns.
+    /// Returns the ticks until it is done, if there is no silent unit time between two patterns.
     #[must_use]
     pub fn ticks(&self) -> u64 {
         let played = self.stored.played.iter();
@@ -62,7 +62,7 @@ impl See {
     }
 }
 
-/// The drivers of both groups.
+/// Drivers of both groups.
 struct Bench<'o> {
     see: &'o [See; 2],
     drivers: [Drivers<'o>; 2],
@@ -92,7 +92,7 @@ impl Observer<Groups> for Bench<'_> {
 /// Plays both groups until the last is done; `observer` sees every tick.
 ///
 /// # Errors
-/// An error of `observer`.
+/// Returns the error of `observer`.
 pub fn play(
     circuit: &Groups,
     members: &[Member; 2],

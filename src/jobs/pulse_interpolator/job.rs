@@ -1,5 +1,5 @@
-//! A drawing through the whole interpolator: planned, compiled to a table, played by the control
-//! computer, and counted at the motor drivers.
+//! Run of a drawing through the whole interpolator: planned, compiled to a table, played by the
+//! control computer, and counted at the motor drivers.
 
 use super::motors::{MotorReport, Motors, StepMotors};
 use super::positions::{Counted, Positions};
@@ -12,46 +12,48 @@ use crate::hdl::{At, Observer, RunError, Sample, Simulator, State, Value, Watche
 use crate::settings::{JobError, SettingError, within};
 use std::ops::ControlFlow;
 
-/// What was seen at the drivers of a group that played a table.
+/// Result at the drivers of a group that played a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Played {
-    /// Ticks of the run, from power-on until the last pulse is over.
+    /// Ticks of the run, from power-on until the end of the last pulse.
     pub ticks: u64,
-    /// The tick in which the first unit time of the table began.
+    /// Tick in which the first unit time of the table began.
     pub begun: u64,
-    /// The tick of the first step on any axis.
+    /// Tick of the first step on any axis.
     pub first_step: Option<u64>,
-    /// Unit times without pulses between two patterns, because the next one was not there yet.
+    /// Number of unit times without pulses between two patterns, because the next one was not
+    /// ready.
     pub idle_units: u64,
-    /// Each axis, X first.
+    /// Results of the axes, X first.
     pub axes: Vec<PlayedAxis>,
     /// Positions at the end of every unit time of the table.
     pub positions: Positions,
-    /// What became of the motors, if there were some.
+    /// Reports of the motors, if there were any.
     pub motors: Vec<MotorReport>,
 }
 
-/// One axis of [`Played`].
+/// Result of one axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlayedAxis {
-    /// Steps up.
+    /// Number of steps up.
     pub pulses_up: u64,
-    /// Steps down.
+    /// Number of steps down.
     pub pulses_down: u64,
-    /// The shortest times on the step and direction lines.
+    /// Least times on the step and direction lines.
     pub minima: TimingMinima,
-    /// Largest distance of a pulse from where an even motion through its unit time has it, in ticks.
+    /// Greatest distance in ticks of a pulse from its time in uniform motion through its unit
+    /// time.
     pub jitter: f64,
 }
 
 impl PlayedAxis {
-    /// Steps up less steps down.
+    /// Returns the steps up minus the steps down.
     pub fn position(&self) -> i64 {
         self.pulses_up as i64 - self.pulses_down as i64
     }
 }
 
-/// What is looked at.
+/// Observed signals.
 struct See {
     pending: At<bool>,
     step: Vec<At<bool>>,
@@ -60,11 +62,11 @@ struct See {
     busy: At<bool>,
 }
 
-/// Drivers on all axes of a group, and where they are when a unit time ends.
+/// Drivers on all axes of a group, and their positions at the end of each unit time.
 pub(super) struct Drivers<'o> {
     counted: Counted<'o>,
     axes: Vec<Paced>,
-    /// The first tick of the unit time under way.
+    /// First tick of the current unit time.
     unit_begun: u64,
     units: usize,
     begun: Option<u64>,
@@ -73,14 +75,14 @@ pub(super) struct Drivers<'o> {
     last_tick: u64,
 }
 
-/// A group that plays a table.
+/// Group that plays a table.
 struct Bench<'o> {
     drivers: Drivers<'o>,
     see: See,
     observer: &'o mut dyn Observer<Group>,
-    /// The run ends in pieces: with every tick in which a command can be taken.
+    /// True if the run ends in pieces: in every tick in which a command can be taken.
     pieces: bool,
-    /// The table is played, or the observer has stopped.
+    /// True if the table has been played, or the observer has stopped.
     over: bool,
 }
 
@@ -105,7 +107,7 @@ impl Observer<Group> for Bench<'_> {
 }
 
 impl<'o> Drivers<'o> {
-    /// Drivers that see `table` played.
+    /// Creates drivers that observe `table` being played.
     pub(super) fn new(table: &'o Table) -> Self {
         Drivers {
             axes: vec![Paced::default(); table.axes()],
@@ -119,7 +121,7 @@ impl<'o> Drivers<'o> {
         }
     }
 
-    /// Sees a tick; true once the table is played.
+    /// Observes a tick; returns true once the table has been played.
     pub(super) fn sample(
         &mut self,
         tick: u64,
@@ -143,7 +145,7 @@ impl<'o> Drivers<'o> {
         self.counted.positions.units == self.units && !busy
     }
 
-    /// What they saw in a run of so many ticks.
+    /// Returns the result of a run of `ticks` ticks.
     pub(super) fn played(self, ticks: u64, motors: Vec<MotorReport>) -> Played {
         let axes = self.axes.iter().map(|Paced { driver, spread }| {
             let (pulses, position) = (driver.pulses() as i64, driver.position());
@@ -165,7 +167,7 @@ impl<'o> Drivers<'o> {
         }
     }
 
-    /// The unit time of the table that is under way.
+    /// Returns the current unit time of the table.
     fn unit(&self) -> usize {
         let ended = self.counted.positions.units;
         ended.min(self.units.saturating_sub(1))
@@ -185,14 +187,14 @@ impl<'o> Drivers<'o> {
     }
 }
 
-/// What gives a group its ports in, where a command waits at its port or not; none where all stay
-/// low until one is taken.
+/// Function that returns the inputs of a group, given if a command waits at its port; `None` if
+/// all stay low until one is taken.
 pub type Computer<'c> = dyn FnMut(bool) -> Option<In<Value>> + 'c;
 
-/// Plays `table` on a group, seen by `observer` too.
+/// Plays `table` on a group; `observer` sees it too.
 ///
 /// # Errors
-/// The group has not the axes of the table, or what `observer` objects to.
+/// Returns an error if the group has other axes than the table, or the error of `observer`.
 pub fn play(
     group: &Group,
     table: &Table,
@@ -207,10 +209,11 @@ pub fn play(
     )
 }
 
-/// The same with another computer, that has the group play what stands in `table`.
+/// Plays as [`play`] does, with another computer that makes the group play the contents of
+/// `table`.
 ///
 /// # Errors
-/// As [`play`].
+/// Returns the errors of [`play`].
 pub fn play_by(
     group: &Group,
     table: &Table,
@@ -228,11 +231,11 @@ pub fn play_by(
     })
 }
 
-/// The same with step motors on the drivers, which stand in the waves beside the group
-/// ([`StepMotors`]).
+/// Plays as [`play_by`] does, with stepper motors on the drivers, which are beside the group in
+/// the waves ([`StepMotors`]).
 ///
 /// # Errors
-/// As [`play`].
+/// Returns the errors of [`play`].
 pub fn play_motors(
     group: &Group,
     table: &Table,
@@ -253,7 +256,7 @@ pub fn play_motors(
                     simulator.show::<StepMotors>(&motors.signals())?;
                 }
                 let i = given.as_ref().unwrap_or(&quiet);
-                // What the bench says of going on is in it.
+                // The bench's decision to continue is part of it.
                 let ((), _) = simulator.step_watched(i, &mut *bench, |_| ())?;
                 let positions = bench.drivers.axes.iter().map(|axis| axis.driver.position());
                 motors.step(bench.drivers.unit(), positions);
@@ -263,11 +266,10 @@ pub fn play_motors(
     )
 }
 
-/// Does what [`play`] does, but goes over idle ticks: for an `observer` that need not see
-/// them.
+/// Plays as [`play`] does, but jumps over idle ticks, for an `observer` that need not see them.
 ///
 /// # Errors
-/// As [`play`].
+/// Returns the errors of [`play`].
 pub fn fast_forward(
     group: &Group,
     table: &Table,
@@ -282,17 +284,17 @@ pub fn fast_forward(
     )
 }
 
-/// The same with another computer, as [`play_by`].
+/// Plays as [`fast_forward`] does, with another computer as in [`play_by`].
 ///
 /// # Errors
-/// As [`play`].
+/// Returns the errors of [`play`].
 pub fn fast_forward_by(
     group: &Group,
     table: &Table,
     computer: &mut Computer<'_>,
     observer: &mut dyn Observer<Group>,
 ) -> Result<Played, JobError> {
-    // With T = 1 RST stands, and a unit time ends without an edge to stop at.
+    // With T = 1 RST is constant, and a unit time ends without an edge to stop at.
     if table.patterns().iter().any(|pattern| pattern.period == 1) {
         return play_by(group, table, computer, observer);
     }
@@ -300,7 +302,7 @@ pub fn fast_forward_by(
         let (pending, quiet) = (bench.see.pending, zero(group));
         bench.pieces = true;
         while !bench.over {
-            // All that the computer looks at is whether a command waits: no counter.
+            // The computer depends only on a waiting command: it has no counter.
             let drive = |simulator: &mut Simulator<Group>| {
                 let given = computer(simulator.state(|q| q.get(pending)));
                 simulator.apply(given.as_ref().unwrap_or(&quiet))?;
@@ -312,13 +314,13 @@ pub fn fast_forward_by(
     })
 }
 
-/// Whether the words of a table have room in the group.
+/// Returns an error if the words of a table do not fit in the group.
 fn fits(group: &Group, table: &Table) -> Result<(), SettingError> {
     let (axes, bits) = (table.axes(), table.half_period_bits());
     if axes != group.axes {
         return Err(SettingError::value("axes", axes, group.axes.to_string()));
     }
-    // A unit time that is a few of these at most has room then.
+    // A unit time of at most a few of these fits then.
     within(
         "half_period_bits",
         bits,
@@ -338,7 +340,7 @@ impl See {
     }
 }
 
-/// What the drivers see of a group that is run to the end of `table`, and what `run` says of motors.
+/// Returns the result of a group that runs to the end of `table`, with the motor reports of `run`.
 fn played(
     group: &Group,
     table: &Table,
@@ -362,8 +364,8 @@ fn played(
     Ok(bench.drivers.played(simulator.tick(), motors))
 }
 
-/// The group for a table: its axes, the default word lengths, the unit time of the first pattern at
-/// power-on.
+/// Returns the group for a table: its axes, the default word lengths, the unit time of the first
+/// pattern at power-on.
 pub fn group(table: &Table, variant: Variant) -> Group {
     let period = table.patterns().first().map_or(1, |pattern| pattern.period);
     Group::new(table.axes(), Widths::default(), variant, period.into())

@@ -1,4 +1,4 @@
-//! Step motors on the drivers of a group, in the waves beside it.
+//! Stepper motors on the drivers of a group, in the waves beside it.
 
 use crate::circuits::pulse_interpolator::AXIS_NAMES;
 use crate::hdl::{Beside, Value, View, signals};
@@ -7,29 +7,29 @@ use crate::plant::{StepMotor, StepMotorParameters};
 use crate::settings::SettingError;
 
 signals! { for StepMotors as _c;
-    /// A step motor as it really is.
+    /// True motion of a stepper motor.
     pub struct StepMotorSignals {
         /// Position in 1/256 of a step of the driver.
         pub position: I(48) as Analog,
         /// Speed in steps of the driver a second.
         pub speed: I(32) as Analog,
-        /// How far its field is ahead of it, in 1/256 of a full step.
+        /// Lead of the field over the rotor, in 1/256 of a full step.
         pub ahead: I(48) as Analog,
     }
 }
 
 signals! { for StepMotors as c;
-    /// The motors of all axes.
+    /// Motors of all axes.
     pub struct StepMotorsSignals {
-        /// X first.
+        /// Motors, X first.
         pub axes: [StepMotorSignals(c); c.axes] as Elements(&AXIS_NAMES),
     }
 }
 
-/// Step motors beside the circuit whose drivers they are on.
+/// Stepper motors beside the circuit on whose drivers they are.
 #[derive(Debug, Clone, Copy)]
 pub struct StepMotors {
-    /// How many.
+    /// Number of motors.
     pub axes: usize,
 }
 
@@ -38,21 +38,20 @@ impl Beside for StepMotors {
     type Signals<V: View> = StepMotorsSignals<V>;
 }
 
-/// What became of a motor.
+/// Report on a motor.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotorReport {
-    /// Largest distance between rotor and field, in full steps.
+    /// Greatest distance between rotor and field, in full steps.
     pub off_full_steps: f64,
-    /// The first unit time of the table in which it was so large.
+    /// First unit time of the table with that distance.
     pub off_unit: usize,
-    /// The first in which the rotor was nearer to another tooth than to its own.
+    /// First unit time in which the rotor was nearer to another tooth than to its own.
     pub lost_unit: Option<usize>,
-    /// Steps of the driver that are lost for good: the motor is behind by these where it comes to
-    /// rest.
+    /// Driver steps that are permanently lost: the motor is behind by these when it comes to rest.
     pub lost_steps: i64,
 }
 
-/// A motor that is followed.
+/// Motor that is being observed.
 #[derive(Debug, Clone)]
 struct Followed {
     motor: StepMotor,
@@ -60,17 +59,17 @@ struct Followed {
     report: MotorReport,
 }
 
-/// The motors of all axes.
+/// Motors of all axes.
 #[derive(Debug, Clone)]
 pub struct Motors {
     axes: Vec<Followed>,
 }
 
 impl Motors {
-    /// Motors alike on so many axes.
+    /// Creates equal motors on `axes` axes.
     ///
     /// # Errors
-    /// [`SettingError`] names the parameter that is out of range.
+    /// Returns a [`SettingError`] that names the parameter that is out of range.
     pub fn new(
         parameters: &StepMotorParameters,
         axes: usize,
@@ -87,7 +86,7 @@ impl Motors {
         })
     }
 
-    /// As they stand.
+    /// Returns the current signals.
     pub fn signals(&self) -> StepMotorsSignals<Value> {
         let signals = |axis: &Followed| StepMotorSignals {
             position: fine(axis.motor.position_steps()),
@@ -99,7 +98,7 @@ impl Motors {
         }
     }
 
-    /// A tick of unit time `unit`, with the drivers at `positions`.
+    /// Advances one tick of unit time `unit`, with the drivers at `positions`.
     pub fn step(&mut self, unit: usize, positions: impl Iterator<Item = i64>) {
         for (axis, commanded) in self.axes.iter_mut().zip(positions) {
             axis.commanded = commanded;
@@ -115,7 +114,7 @@ impl Motors {
         }
     }
 
-    /// What became of each, once they have come to rest.
+    /// Returns the reports of the motors, after they have come to rest.
     pub fn report(mut self) -> Vec<MotorReport> {
         let ended = self.axes.iter_mut().map(|axis| {
             axis.motor.settle(axis.commanded);

@@ -1,7 +1,8 @@
-//! The lines and arcs of a drawing as moves of the conventional device, each with its parameters
-//! (¶0003–0004): the device itself computes the amounts of every unit time.
+//! Conversion of a drawing's lines and arcs to moves of the conventional device, each with its
+//! parameters (¶0003–0004): the device itself computes the amounts of every unit time.
 //!
-//! Every move has one speed from its first unit time to its last, as the device knows no other.
+//! Every move has a constant speed from its first unit time to its last; the device supports no
+//! other.
 
 use super::beside::{Arc, Order};
 use super::table::{Settings, UnitDemand};
@@ -16,22 +17,22 @@ use crate::plan::FEED_RANGE;
 use std::array::from_fn;
 use std::f64::consts::TAU;
 
-/// Why a move of a drawing is none of the device's.
+/// Reason why a drawing cannot be converted to moves of the device.
 #[derive(Debug, thiserror::Error)]
 pub enum MoveError {
-    /// A move cannot be given with the parameters that the device takes.
+    /// A move cannot be expressed by the device's parameters.
     #[error("line {line}: {field} {problem}; allowed: {allowed}")]
     Move {
         /// Line of the input.
         line: usize,
-        /// "path" or "F".
+        /// Field at fault: "path" or "F".
         field: &'static str,
-        /// Fault in words.
+        /// Description of the fault.
         problem: String,
-        /// Values without it.
+        /// Allowed values.
         allowed: String,
     },
-    /// The scales of X and Y differ, so that a circle is none in steps.
+    /// The scales of X and Y differ, so that a circle is not a circle in steps.
     #[error("an arc as one move needs the same scale on X and Y")]
     Scales,
     /// The device's CORDIC cannot be run.
@@ -39,33 +40,33 @@ pub enum MoveError {
     Run(#[from] RunError),
 }
 
-/// A drawing as moves, and where each is at the end of every unit time.
+/// Moves of a drawing, and their positions at the end of every unit time.
 #[derive(Debug, Clone, Default)]
 pub struct Moves {
-    /// The moves.
+    /// Moves in order.
     pub orders: Vec<Order>,
-    /// Unit after unit.
+    /// Positions, unit after unit.
     pub demands: Vec<UnitDemand>,
 }
 
-/// The computer 7 on its way through a drawing.
+/// Computer 7 while it converts a drawing.
 struct Planner<'s> {
     settings: &'s Settings,
     circular: CircularInterpolator,
-    /// Scale of each axis in steps a millimetre; 0 of those not driven.
+    /// Scale of each axis in steps per millimetre; 0 for axes that are not driven.
     scale: Point,
     /// First point of the drawing in mm.
     start: Point,
-    /// Position of the axes behind the moves so far, in steps.
+    /// Position of the axes after the moves so far, in steps.
     at: [i64; COORDINATES],
     made: Moves,
 }
 
-/// Makes the moves of a drawing.
+/// Converts a drawing to moves.
 ///
 /// # Errors
-/// A move has too many steps or unit times for the device, an arc moves in Z too, or the scales of X
-/// and Y differ where there is an arc.
+/// Returns an error if a move has too many steps or unit times for the device, an arc moves in Z
+/// too, or the scales of X and Y differ and there is an arc.
 pub fn moves(drawing: &Drawing, settings: &Settings) -> Result<Moves, MoveError> {
     let scales = &settings.steps_per_mm;
     let mut planner = Planner {
@@ -94,7 +95,7 @@ pub fn moves(drawing: &Drawing, settings: &Settings) -> Result<Moves, MoveError>
 }
 
 impl Planner<'_> {
-    /// A point of the drawing in steps from where the axes begin.
+    /// Converts a point of the drawing to steps from the axes' start.
     fn steps(&self, point: Point) -> Point {
         from_fn(|axis| {
             let begin = (self.start[axis] * self.scale[axis]).round();
@@ -102,8 +103,8 @@ impl Planner<'_> {
         })
     }
 
-    /// Unit times that a move of a length in mm takes at its speed, where its fastest axis has this
-    /// share of `reach` steps in each.
+    /// Returns the unit times that a move of a length in mm takes at its speed, if its fastest
+    /// axis has this share of `reach` steps in each.
     fn units(
         &self,
         step: &Move,
@@ -129,7 +130,7 @@ impl Planner<'_> {
         let widths = &self.circular.controller.widths;
         let ticks = length / speed * 60.0 * self.settings.clock_hz as f64;
         let units = (ticks / f64::from(period)).ceil();
-        // No axis has more steps in a unit time than its driver takes.
+        // No axis has more steps in a unit time than its driver allows.
         let timing = &self.settings.timing;
         let pulse = 2 * timing.min_high.max(timing.min_low).max(1);
         let pulses = f64::from((period / pulse).max(1));
@@ -146,7 +147,7 @@ impl Planner<'_> {
         Ok(units as u32)
     }
 
-    /// Refuses a way in steps that no word of the device holds.
+    /// Returns an error for a distance in steps that does not fit in a word of the device.
     fn fits(&self, step: &Move, steps: f64, what: &str) -> Result<(), MoveError> {
         let most = (1u64 << self.circular.controller.widths.distance) - 1;
         match steps <= most as f64 {
@@ -207,7 +208,7 @@ impl Planner<'_> {
         let middle = self.steps([centre[0], centre[1], from[2]]);
         let [begin, end] = [from, step.to].map(|point| self.steps(point));
         let angle = |point: Point| (point[1] - middle[1]).atan2(point[0] - middle[0]);
-        // A negative scale turns it round.
+        // A negative scale reverses the direction.
         let backwards = clockwise != (scale * other < 0.0);
         let turned = (angle(end) - angle(begin)).rem_euclid(TAU);
         let full = from[..2] == step.to[..2];
@@ -218,10 +219,10 @@ impl Planner<'_> {
             (false, true) => turned - TAU,
         };
         let radius = (begin[0] - middle[0]).hypot(begin[1] - middle[1]);
-        // A rounded point may be a step outside.
+        // A rounded point may be one step outside.
         self.fits(step, radius + 1.0, "a radius")?;
         let (way, period) = (radius * sweep.abs(), self.settings.arc_unit_ticks);
-        // A turn of a unit time is below half a turn.
+        // The rotation per unit time must be below half a turn.
         let units = self.units(step, (way / scale.abs(), way), period)?.max(3);
         let bits = self.circular.angle;
         let words = (bits as f64).exp2() / TAU;
@@ -257,7 +258,7 @@ impl Planner<'_> {
         Ok(())
     }
 
-    /// The rounded point of the device's own CORDIC.
+    /// Returns the rounded point of the device's own CORDIC.
     fn point(&self, radius: u64, angle: u64) -> Result<[i64; 2], RunError> {
         let circuit: Cordic = self.circular.cordic();
         let mut simulator = Simulator::new(&circuit)?;
@@ -281,7 +282,7 @@ impl Planner<'_> {
         Ok(point.map(|word| (word + half) >> GUARD))
     }
 
-    /// Takes a move with its exact points by the share of its unit times.
+    /// Adds a move; `exact` returns its exact point for a share of its unit times.
     fn push(&mut self, order: Order, exact: impl Fn(f64) -> Point) {
         for unit in 1..=order.units {
             let exact = exact(f64::from(unit) / f64::from(order.units));

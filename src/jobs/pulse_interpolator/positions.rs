@@ -6,31 +6,31 @@ use crate::circuits::pulse_interpolator::counts::pulses;
 use crate::jobs::pulse_interpolator::Word;
 use std::ops::Deref;
 
-/// The steps that a word makes in `period` ticks.
+/// Returns the steps that a word makes in `period` ticks.
 #[must_use]
 pub fn steps_of(word: Word, period: u32) -> i64 {
     let steps = i64::from(pulses(word.half_period(), period));
     if word.negative() { -steps } else { steps }
 }
 
-/// A unit time in which an axis made other steps than its word says.
+/// Unit time in which an axis made a different number of steps than its word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Miscount {
-    /// The unit time, from 0.
+    /// Unit time, from 0.
     pub unit: u32,
-    /// The axis, from 0.
+    /// Axis, from 0.
     pub axis: u8,
-    /// Steps that it made beyond those of the word.
+    /// Steps beyond those of the word.
     pub steps: i32,
 }
 
-/// Positions at the end of every unit time of a table in steps from where the axes began. What the
-/// words say takes no memory; what was counted otherwise does.
+/// Positions at the end of every unit time of a table, in steps from the axes' start. Positions
+/// according to the words take no memory; deviating counts do.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Positions {
-    /// Unit times that are over.
+    /// Number of completed unit times.
     pub units: usize,
-    /// The unit times that are otherwise, in order.
+    /// Deviating unit times, in order.
     pub miscounts: Vec<Miscount>,
 }
 
@@ -50,7 +50,7 @@ impl Deref for UnitPositions {
 }
 
 impl Positions {
-    /// The positions unit after unit of a run of `table`.
+    /// Returns the positions, unit after unit, of a run of `table`.
     pub fn of<'a>(&'a self, table: &'a Table) -> impl Iterator<Item = UnitPositions> + 'a {
         let (mut miscounts, axes) = (self.miscounts.iter().peekable(), table.axes());
         let mut at = [0i64; AXES_MAX];
@@ -68,10 +68,10 @@ impl Positions {
     }
 }
 
-/// Positions in the making.
+/// Positions that are being recorded.
 pub(super) struct Counted<'t> {
     units: Box<dyn Iterator<Item = (u32, super::table::UnitWords)> + 't>,
-    /// Where each axis was at the end of the unit time before.
+    /// Position of each axis at the end of the unit time before.
     before: [i64; AXES_MAX],
     pub(super) positions: Positions,
 }
@@ -85,7 +85,7 @@ impl<'t> Counted<'t> {
         }
     }
 
-    /// A unit time of the table is over, with the axes at these positions.
+    /// Adds a completed unit time of the table, with the axes at these positions.
     pub(super) fn unit(&mut self, at: impl Iterator<Item = i64>) {
         let unit = self.units.next();
         for (axis, (at, before)) in at.zip(&mut self.before).enumerate() {

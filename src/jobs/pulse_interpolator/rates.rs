@@ -1,21 +1,22 @@
-//! Step rates of a table, and how they jump from unit time to unit time.
+//! Step rates of a table, and their jumps between unit times.
 
 use super::Table;
 use crate::circuits::pulse_interpolator::counts::pulses;
 
-/// Step rates of an axis, in steps a second.
+/// Step rates of an axis in steps per second.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StepRates {
-    /// The largest.
+    /// Greatest rate.
     pub largest: f64,
-    /// The largest change from one unit time to the next; before the first and after the last the
-    /// axis stands.
+    /// Greatest change from one unit time to the next; the axis is at rest before the first and
+    /// after the last.
     pub change: f64,
-    /// The unit time with which that begins: the number of units for one into the end.
+    /// Unit time that begins with that change: the number of units for the change at the end.
     pub change_unit: usize,
 }
 
-/// The step rates of each axis: in a unit time with pulses the clock by twice the half-period.
+/// Returns the step rates of each axis: in a unit time with pulses, the clock divided by twice the
+/// half-period.
 #[must_use]
 pub fn step_rates(table: &Table) -> Vec<StepRates> {
     let (mut rates, mut last) = (
@@ -58,7 +59,7 @@ mod tests {
 
     #[test]
     fn rates_and_their_changes_are_signed_and_counted_from_rest() {
-        // 500, 1000 up, 1000 down, none; Y reverses from 2500, which is its largest change.
+        // 500, 1000 up, 1000 down, none; Y reverses from 2500, its greatest change.
         let rows = "0,500,100,0,20,0\n1,500,50,0,20,1\n2,500,50,1,20,1\n3,500,0,0,20,1\n";
         let [x, y] = rates(rows)[..] else {
             panic!("two axes");
@@ -70,12 +71,12 @@ mod tests {
         };
         assert_eq!(x, expected(1000.0, 2000.0, 2));
         assert_eq!(y, expected(2500.0, 5000.0, 1));
-        // The largest may be backwards.
+        // The greatest rate may be backwards.
         let [x, _] = rates("0,500,100,0,0,0\n1,500,50,1,0,0\n")[..] else {
             panic!("two axes");
         };
         assert_eq!(x, expected(1000.0, 1500.0, 1));
-        // The end is a change too: to rest, of a rate that came in two.
+        // The end is a change too: to rest, from a rate that was reached in two changes.
         assert_eq!(
             rates("0,500,100,0,0,0\n1,500,50,0,0,0\n"),
             [expected(1000.0, 1000.0, 2), expected(0.0, 0.0, 0)]
@@ -84,7 +85,7 @@ mod tests {
 
     #[test]
     fn a_word_that_makes_no_pulse_is_no_rate() {
-        // A half-period as long as T makes none.
+        // A half-period equal to T gives no pulse.
         let [x, y] = rates("0,500,500,0,499,0\n")[..] else {
             panic!("two axes");
         };

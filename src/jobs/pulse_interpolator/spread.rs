@@ -1,14 +1,14 @@
-//! How evenly the pulses of a unit time are spread over it.
+//! Uniformity of the pulses over a unit time.
 
 use super::StepTiming;
 use super::step_dir::Driver;
 
-/// An axis as it is seen: its motor driver, which asks for nothing, and how evenly its pulses come.
+/// Observed axis: a motor driver without requirements, and the uniformity of its pulses.
 #[derive(Debug, Clone)]
 pub struct Paced {
-    /// The driver.
+    /// Driver.
     pub driver: Driver,
-    /// Its pulses against an even motion.
+    /// Pulses compared with uniform motion.
     pub spread: Spread,
 }
 
@@ -22,10 +22,10 @@ impl Default for Paced {
 }
 
 impl Paced {
-    /// Sees the lines in a tick.
+    /// Observes the lines in a tick.
     pub fn sample(&mut self, tick: u64, step: bool, dir: bool) {
         let before = self.driver.pulses();
-        // The driver asks for nothing, so it has nothing to complain of.
+        // The driver has no requirements, so it reports no error.
         let _ = self.driver.sample(tick, step, dir);
         if self.driver.pulses() > before {
             self.spread.rise(tick);
@@ -33,22 +33,22 @@ impl Paced {
     }
 }
 
-/// The pulses of an axis against those of an even motion: of Y pulses in a unit time of T ticks,
-/// pulse k, counted from 0, is due (2k + 1)·T/2Y ticks into it.
+/// Pulses of an axis compared with uniform motion: of Y pulses in a unit time of T ticks, pulse k,
+/// counted from 0, is due (2k + 1)·T/2Y ticks into it.
 #[derive(Debug, Clone, Default)]
 pub struct Spread {
-    /// Ticks of the rising edges of the unit time under way.
+    /// Ticks of the rising edges in the current unit time.
     rises: Vec<u64>,
     jitter: f64,
 }
 
 impl Spread {
-    /// A pulse rises.
+    /// Records a rising edge.
     pub fn rise(&mut self, tick: u64) {
         self.rises.push(tick);
     }
 
-    /// The unit time ends that began with one tick and lasted until another, which is not its own.
+    /// Ends the unit time from tick `begun` to before tick `end`.
     pub fn unit_ends(&mut self, begun: u64, end: u64) {
         let (period, twice) = (i128::from(end - begun), 2 * self.rises.len() as i128);
         for (k, rise) in (0..).zip(self.rises.drain(..)) {
@@ -57,7 +57,7 @@ impl Spread {
         }
     }
 
-    /// Largest distance of a pulse from where it is due, in ticks.
+    /// Returns the greatest distance of a pulse from its due time, in ticks.
     #[must_use]
     pub fn jitter(&self) -> f64 {
         self.jitter

@@ -1,38 +1,38 @@
-//! A stepper driver's view of one axis: steps counted, step/direction timing measured.
+//! Model of a stepper driver on one axis: counts steps and measures step/direction timing.
 //!
-//! Behavioural: it watches the lines as a driver with a step and a direction input would.
+//! Behavioural: observes the lines like a driver with a step and a direction input.
 
 use super::StepTiming;
 use crate::circuits::pulse_interpolator::{AXIS_NAMES, Group};
 use crate::hdl::{Observer, RunError, Sample};
 use std::ops::ControlFlow;
 
-/// The shortest times seen so far, in ticks; `None` where there was no such pair of edges.
+/// Least times so far, in ticks; `None` if there was no such pair of edges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TimingMinima {
     /// Step high.
     pub high: Option<u64>,
     /// Step low between two steps.
     pub low: Option<u64>,
-    /// Change of direction to the next step.
+    /// Time from a change of direction to the next step.
     pub setup: Option<u64>,
-    /// Step to the next change of direction.
+    /// Time from a step to the next change of direction.
     pub hold: Option<u64>,
 }
 
 /// Two edges that came too close.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TooShort {
-    /// Which time: "high", "low", "setup" or "hold".
+    /// Name of the time: "high", "low", "setup" or "hold".
     pub what: &'static str,
-    /// What was seen, in ticks.
+    /// Actual time in ticks.
     pub ticks: u64,
-    /// What is asked, in ticks.
+    /// Least allowed time in ticks.
     pub limit: u64,
 }
 
-/// A stepper driver on one axis: a step is a rising edge, its direction the level of the
-/// direction line in that tick; high counts down.
+/// Stepper driver on one axis: a step is a rising edge, its direction the level of the direction
+/// line in that tick; high counts down.
 #[derive(Debug, Clone, Default)]
 pub struct Driver {
     limits: StepTiming,
@@ -43,14 +43,15 @@ pub struct Driver {
     dir: Option<bool>,
     rose: Option<u64>,
     fell: Option<u64>,
-    /// A change of direction that no step has followed yet.
+    /// Tick of a change of direction that no step has followed yet.
     turned: Option<u64>,
-    /// The last step, while no change of direction has followed it.
+    /// Tick of the last step, if no change of direction has followed it.
     stepped: Option<u64>,
 }
 
 impl Driver {
-    /// A driver at position 0 that asks for `limits`. Step is low before the first tick.
+    /// Creates a driver at position 0 with the requirements `limits`. Step is low before the first
+    /// tick.
     pub fn new(limits: StepTiming) -> Self {
         Driver {
             limits,
@@ -58,26 +59,26 @@ impl Driver {
         }
     }
 
-    /// Steps so far, in either direction.
+    /// Returns the number of steps so far, in either direction.
     pub fn pulses(&self) -> u64 {
         self.pulses
     }
 
-    /// Position in steps from where it began.
+    /// Returns the position in steps from the start.
     pub fn position(&self) -> i64 {
         self.position
     }
 
-    /// The shortest times so far.
+    /// Returns the least times so far.
     pub fn minima(&self) -> TimingMinima {
         self.minima
     }
 
-    /// Sees the lines of one tick.
+    /// Observes the lines of one tick.
     ///
     /// # Errors
-    /// Two edges came closer than the limits allow; the minima and the position count them all
-    /// the same.
+    /// Returns an error if two edges came closer than the limits allow; minima and position
+    /// include them nevertheless.
     pub fn sample(&mut self, tick: u64, step: bool, dir: bool) -> Result<(), TooShort> {
         if step == self.step && self.dir == Some(dir) {
             return Ok(());
@@ -130,12 +131,12 @@ impl Driver {
     }
 }
 
-/// A driver on every axis of a [`Group`]; a limit broken ends the run.
+/// Drivers on all axes of a [`Group`]; a violated limit ends the run.
 #[derive(Debug, Clone)]
 pub struct Drivers(pub Vec<Driver>);
 
 impl Drivers {
-    /// Drivers on so many axes that ask for `limits`.
+    /// Creates drivers on `axes` axes with the requirements `limits`.
     pub fn new(axes: usize, limits: StepTiming) -> Self {
         Drivers(vec![Driver::new(limits); axes])
     }

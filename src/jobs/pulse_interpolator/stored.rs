@@ -1,4 +1,4 @@
-//! Patterns that stand in the memory and are never rewritten (¶0009, ¶0014): chosen by command
+//! Patterns that are in the memory and are never rewritten (¶0009, ¶0014): selected by command
 //! (¶0019, ¶0026), or played without a control computer (¶0032).
 
 use super::table::Table;
@@ -7,86 +7,86 @@ use crate::circuits::pulse_interpolator::pattern_memory::Contents;
 use crate::circuits::pulse_interpolator::{Group, Pattern, Variant, Widths};
 use crate::hdl::{Value, zero};
 
-/// A memory with its patterns, and what is played of them.
+/// Memory with its patterns, and the patterns that are played.
 #[derive(Debug, Clone)]
 pub struct Stored {
-    /// The group, with the patterns in its memories.
+    /// Group with the patterns in its memories.
     pub group: Group,
     /// First and last address of each pattern.
     pub places: Vec<[u64; 2]>,
-    /// What is played, unit after unit.
+    /// Patterns played, unit after unit.
     pub played: Table,
-    /// The commands of the control computer; none where the group plays by itself.
+    /// Commands of the control computer; empty if the group plays by itself.
     pub commands: Vec<Pattern>,
-    /// The unit time behind each pattern of the memory that is played.
+    /// End of each pattern that is played, as a unit time.
     ends: Vec<usize>,
-    /// Ticks in which the control computer writes T, each with the T.
+    /// Ticks in which the control computer writes T, with the T.
     pub writes: Vec<(u64, u32)>,
 }
 
-/// T written while patterns are played (¶0016).
+/// Write of T while patterns are played (¶0016).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rewrite {
-    /// The unit time of the run in whose middle it is written, from 0.
+    /// Unit time of the run in whose middle it is written, from 0.
     pub unit: usize,
     /// T in ticks: in force from the next RST on, until another pattern begins.
     pub period: u32,
 }
 
-/// The shortest unit time in whose middle T can be written: its first ticks are those of a command.
+/// Least unit time in whose middle T can be written: its first ticks belong to a command.
 const SHORTEST: u32 = 4;
 
-/// Why patterns cannot be stored or played; they are counted from 0.
+/// Reason why patterns cannot be stored or played; patterns are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum StoredError {
-    /// It has other axes than the first.
+    /// A pattern has other axes than the first.
     #[error("pattern {pattern} has {axes} axes, the first has {first}")]
     Axes {
-        /// The pattern.
+        /// Pattern.
         pattern: usize,
-        /// Its axes.
+        /// Number of its axes.
         axes: usize,
-        /// Those of the first.
+        /// Number of axes of the first pattern.
         first: usize,
     },
     /// The memory is full.
     #[error("pattern {pattern} has {units} unit times where {room} are free")]
     Full {
-        /// The pattern.
+        /// Pattern.
         pattern: usize,
-        /// Its unit times.
+        /// Number of its unit times.
         units: usize,
-        /// The addresses left.
+        /// Number of free addresses.
         room: usize,
     },
-    /// A group plays one pattern of one T by itself.
+    /// A group by itself plays a single pattern with a single T.
     #[error("{commands} commands")]
     Alone {
-        /// As many commands it would take.
+        /// Number of commands needed.
         commands: usize,
     },
-    /// T is written where that has no effect, or is none.
+    /// T is written at a time without effect, or is invalid.
     #[error("rewrite {rewrite} at unit time {unit}")]
     Rewrite {
-        /// The rewrite, from 0.
+        /// Rewrite, from 0.
         rewrite: usize,
         /// Its unit time.
         unit: usize,
     },
-    /// Nothing is played.
+    /// There is nothing to play.
     #[error("nothing to play")]
     Nothing,
-    /// What is played has too many unit times.
+    /// The patterns to play have too many unit times.
     #[error("too many unit times")]
     TooLong,
 }
 
 impl Stored {
-    /// Puts `patterns` into the memory one behind the other, to be played in this `order`; `alone`
-    /// without a control computer.
+    /// Stores `patterns` one after the other, to be played in this `order`; with `alone` without a
+    /// control computer.
     ///
     /// # Errors
-    /// See [`StoredError`].
+    /// Returns a [`StoredError`].
     pub fn new(
         patterns: &[&Table],
         order: &[usize],
@@ -164,13 +164,14 @@ impl Stored {
         })
     }
 
-    /// Has the control computer write T while the patterns are played.
+    /// Makes the control computer write T while the patterns are played.
     ///
     /// # Errors
-    /// [`StoredError::Rewrite`] where they are not one after the other, a unit time is the last of its
-    /// pattern, where the next one brings its own T, or shorter than 4 ticks, or T is no word.
+    /// Returns [`StoredError::Rewrite`] if the writes are not in order, a unit time is the last of
+    /// its pattern, after which the next one sets its own T, or shorter than 4 ticks, or T does
+    /// not fit its word.
     pub fn rewritten(mut self, rewrites: &[Rewrite]) -> Result<Self, StoredError> {
-        // A pattern brings its T along.
+        // A pattern sets its own T.
         let mut periods: Vec<u32> = self.played.iter().map(|(period, _)| period).collect();
         let mut next = 0;
         for (index, rewrite) in rewrites.iter().enumerate() {
@@ -190,7 +191,7 @@ impl Stored {
             };
             periods[unit + 1..end].fill(period);
             next = unit + 1;
-            // Before the first unit time one is silent.
+            // A silent unit time precedes the first.
             let begin: u64 = periods[..unit].iter().copied().map(u64::from).sum();
             let tick = self.group.period + begin + u64::from(periods[unit] / 2);
             self.writes.push((tick, period));
@@ -200,9 +201,9 @@ impl Stored {
         Ok(self)
     }
 
-    /// What the control computer gives, for [`play_by`](super::job::play_by): the next command as
-    /// soon as none waits, and T in the ticks in which it is written. Where it is, the computer is to be
-    /// asked in every tick.
+    /// Returns the control computer for [`play_by`](super::job::play_by): it gives the next
+    /// command as soon as none waits, and T in the ticks in which it is written. If there are such
+    /// writes, it must be called in every tick.
     pub fn computer(&self) -> impl FnMut(bool) -> Option<In<Value>> {
         let quiet = zero(&self.group);
         let mut commands = self.commands.iter();

@@ -1,16 +1,16 @@
-//! What models make of a circle at constant speed, by closed forms.
+//! Response of models to a circle at constant speed, in closed form.
 //!
-//! A circle of the radius r, run at ω = v/r, is e^(jωt). The response of a model to it is G = G(jω)
-//! times as large, so that it runs r(1 − |G|) inside. The corrected command is 1 + e^(−jωτ) − G times
-//! as large, τ being the lag of the tangential response. In the widened circle it is 1 + c·ω².
-//! With the feedback it is u: across the path Re u = 1 + N(1 − Re Xu), along it Im u = −T·Im Xu, X
-//! being the motor as it is seen.
+//! A circle of radius r with speed v = ω·r is e^(jωt). The response of a model to it is G = G(jω)
+//! times as large, so it runs r(1 − |G|) inside. The corrected command is 1 + e^(−jωτ) − G times
+//! as large; τ is the lag of the tangential response. For the widened circle the factor is 1 +
+//! c·ω². With the feedback it is u: across the path Re u = 1 + N(1 − Re Xu), along it Im u = −T·Im
+//! Xu; X is the motor as observed.
 //!
 //! | | continuous | sampled, z = e^(jωΔt) |
 //! |---|---|---|
 //! | G | K1·K2 / (s² + K2·s + K1·K2) | z·K1·K2 / ((z − 1)² + K2·(z − 1) + K1·K2) |
 //! | τ | 1/K1 | (1/K1 − 1)·Δt |
-//! | X | G | G(1 − d(1 − 1/z)), seen d periods before the model's step is over |
+//! | X | G | G(1 − d(1 − 1/z)), observed d periods before the end of the model's step |
 
 use super::job::{Program, controller};
 use super::segments::Segment;
@@ -19,39 +19,39 @@ use crate::circuits::trajectory_controller::{Rounding, Widths};
 use crate::input::COORDINATES;
 use std::ops::Range;
 
-/// After so many times of its slowest decay a model has forgotten what was before.
+/// Number of times of its slowest decay after which a model has forgotten its past.
 const FORGOTTEN: f64 = 20.0;
 
 type Complex = [f64; 2];
 
-/// Contour errors on a circle, in mm, inwards positive.
+/// Contour errors on a circle in mm, inwards positive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClosedForms {
-    /// r in mm.
+    /// Radius r in mm.
     pub radius_mm: f64,
-    /// v in mm/s.
+    /// Speed v in mm/s.
     pub speed_mm_per_s: f64,
-    /// Of continuous models, by correction.
+    /// Errors of continuous models, by correction.
     pub continuous: Variants,
-    /// Of the sampled models.
+    /// Errors of the sampled models, by correction.
     pub sampled: Variants,
 }
 
-/// A number of each correction.
+/// Value for each correction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Variants {
-    /// Without correction: r(1 − |G|).
+    /// Error without correction: r(1 − |G|).
     pub none: f64,
-    /// With the correction vector: r(1 − |G(1 + e^(−jωτ) − G)|).
+    /// Error with the correction vector: r(1 − |G(1 + e^(−jωτ) − G)|).
     pub vector: f64,
-    /// On the widened circle: r(1 − (1 + c·ω²)|G|).
+    /// Error on the widened circle: r(1 − (1 + c·ω²)|G|).
     pub steady: f64,
-    /// With the motors' errors fed back: r(1 − |G·u|).
+    /// Error with feedback of the motors' errors: r(1 − |G·u|).
     pub feedback: f64,
 }
 
 impl Variants {
-    /// That of a correction.
+    /// Returns the value of a correction.
     #[must_use]
     pub fn of(&self, correction: Correction) -> f64 {
         match correction {
@@ -64,7 +64,8 @@ impl Variants {
 }
 
 impl ClosedForms {
-    /// Of a circle, by gains in 1/s, the period in s, c in s², and what is fed back.
+    /// Computes the errors on a circle from gains in 1/s, the period in s, c in s², and the
+    /// feedback.
     #[must_use]
     pub fn of(
         radius_mm: f64,
@@ -109,19 +110,19 @@ impl ClosedForms {
     }
 }
 
-/// What is fed back.
+/// Feedback parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fed {
-    /// T.
+    /// Tangential gain T.
     pub tangential: f64,
-    /// N.
+    /// Normal gain N.
     pub normal: f64,
-    /// How long before the motors are compared with their models they are looked at, in periods.
+    /// Time in periods from the sampling of the motors to their comparison with the models.
     pub lead: f64,
 }
 
 impl Fed {
-    /// That of a program.
+    /// Returns the parameters of a program.
     #[must_use]
     pub fn of(program: &Program) -> Self {
         let [tangential, normal] = program.feedback.parts(&Widths::FULL);
@@ -133,7 +134,7 @@ impl Fed {
         }
     }
 
-    /// u, where the motors are X = `seen` times the corrected command.
+    /// Returns u, if the motors are X = `seen` times the corrected command.
     fn command(self, [re, im]: Complex) -> Complex {
         let (t, n) = (self.tangential, self.normal);
         let whole = (1.0 + n * re) * (1.0 + t * re) + n * t * im * im;
@@ -141,46 +142,46 @@ impl Fed {
     }
 }
 
-/// The part of a run in which a circle is run at constant speed, and what was before is forgotten.
+/// Part of a run on a circle at constant speed, after the past has been forgotten.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steady {
-    /// How many periods it has.
+    /// Number of its periods.
     pub periods: usize,
-    /// Mean contour error of the models, in mm.
+    /// Mean contour error of the models in mm.
     pub model_mm: f64,
-    /// Mean contour error of the motors, in mm.
+    /// Mean contour error of the motors in mm.
     pub motor_mm: f64,
-    /// Mean contour error of the loads, in mm.
+    /// Mean contour error of the loads in mm.
     pub load_mm: f64,
-    /// What the closed forms say.
+    /// Results of the closed forms.
     pub forms: ClosedForms,
 }
 
-/// Lengths between which a circle is run at constant speed, and what was seen there.
+/// Range of lengths in which a circle is run at constant speed, with its observations.
 #[derive(Debug)]
 struct Stretch {
     from: f64,
     to: f64,
     forms: ClosedForms,
-    /// Periods within it.
+    /// Number of periods within it.
     periods: usize,
-    /// Sums of the contour errors of models, motors and loads when what was before is forgotten.
+    /// Sums of the contour errors of models, motors and loads after the past has been forgotten.
     sums: [f64; 3],
 }
 
-/// Looks for the longest [`Steady`] part of a run while it goes on.
+/// Search for the longest [`Steady`] part of a run while it goes on.
 #[derive(Debug)]
 pub struct SteadySearch {
-    /// Periods in which what was before is forgotten.
+    /// Number of periods after which the past is forgotten.
     wait: usize,
     stretches: Vec<Stretch>,
-    /// The first that is not over.
+    /// Index of the first stretch that has not ended.
     next: usize,
 }
 
 impl SteadySearch {
-    /// Finds the stretches of a program; none where the models of the axes differ, so that a circle
-    /// becomes none.
+    /// Finds the stretches of a program; none if the models of the axes differ, since a circle is
+    /// distorted then.
     #[must_use]
     pub fn new(program: &Program) -> Self {
         let motion = &program.motion;
@@ -202,7 +203,7 @@ impl SteadySearch {
                 continue;
             }
             let ends = [piece.t, until].map(|t| program.profile.at(t)[0]);
-            // Pieces and circles both come in the order of the lengths.
+            // Pieces and circles are both ordered by length.
             first += circles[first..].partition_point(|(circle, _)| (circle.end as f64) < ends[0]);
             for (circle, radius) in &circles[first..] {
                 let from = (circle.start as f64).max(ends[0]);
@@ -227,8 +228,8 @@ impl SteadySearch {
         }
     }
 
-    /// Takes the next period: its length, which never falls, and the contour errors of models, motors
-    /// and loads in mm.
+    /// Adds the next period: its length, which never decreases, and the contour errors of models,
+    /// motors and loads in mm.
     pub fn take(&mut self, length: i64, contour_mm: [f64; 3]) {
         let length = length as f64;
         let over = |stretch: &Stretch| stretch.to < length;
@@ -236,7 +237,7 @@ impl SteadySearch {
             .iter()
             .take_while(|of| over(of))
             .count();
-        // One ends where another begins.
+        // One stretch ends where another begins.
         let under_way = self.stretches[self.next..].iter_mut();
         for stretch in under_way.take_while(|stretch| stretch.from <= length) {
             if stretch.periods >= self.wait {
@@ -248,7 +249,7 @@ impl SteadySearch {
         }
     }
 
-    /// The longest part; none where there is no period of one.
+    /// Returns the longest part; `None` if no stretch has enough periods.
     #[must_use]
     pub fn finish(self) -> Option<Steady> {
         let wait = self.wait;
@@ -270,7 +271,7 @@ impl SteadySearch {
     }
 }
 
-/// Where the path is on one circle, in guard units, and the circle's radius.
+/// Returns the ranges of the path on one circle, in guard units, with the circle's radius.
 fn circles(program: &Program) -> Vec<(Range<u64>, f64)> {
     let mut circles: Vec<(Range<u64>, f64)> = Vec::new();
     let mut before: Option<Segment> = None;

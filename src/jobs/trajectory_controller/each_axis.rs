@@ -1,4 +1,4 @@
-//! A setting that is one number for all axes, or a list with one for each.
+//! Setting that is one number for all axes, or a list with one for each.
 
 use crate::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use crate::settings::{Place, SettingError};
@@ -6,13 +6,13 @@ use serde::Serialize;
 use serde::de::{Deserialize, Deserializer, SeqAccess, Visitor};
 use std::fmt;
 
-/// A number for all axes, or one for each.
+/// Number for all axes, or one for each.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum EachAxis {
-    /// The same for all.
+    /// Number for all axes.
     All(f64),
-    /// One for each.
+    /// Number for each axis.
     Each(Vec<f64>),
 }
 
@@ -35,7 +35,7 @@ impl fmt::Display for EachAxis {
 }
 
 impl EachAxis {
-    /// That of an axis; what is not in the list is no number.
+    /// Returns the value of an axis; NaN if it is not in the list.
     #[must_use]
     pub fn of(&self, axis: usize) -> f64 {
         match self {
@@ -44,7 +44,7 @@ impl EachAxis {
         }
     }
 
-    /// How many axes it is told for; any number where it is the same for all.
+    /// Returns the number of axes in the list; `None` for a single number.
     #[must_use]
     pub fn told(&self) -> Option<usize> {
         match self {
@@ -53,7 +53,7 @@ impl EachAxis {
         }
     }
 
-    /// The axis as the place of a fault, where each has its own.
+    /// Adds the axis as the place of a fault, if each has its own value.
     #[must_use]
     pub fn fault(&self, axis: usize, error: SettingError) -> SettingError {
         match self {
@@ -62,10 +62,10 @@ impl EachAxis {
         }
     }
 
-    /// Checks that there is one for each of so many axes.
+    /// Checks that there is a value for each of `axes` axes.
     ///
     /// # Errors
-    /// Fewer or more.
+    /// Returns an error if there are fewer or more.
     pub fn check(&self, field: &'static str, axes: usize) -> Result<(), SettingError> {
         match self.told() {
             Some(given) if given != axes => {

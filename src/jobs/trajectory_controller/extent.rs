@@ -1,5 +1,5 @@
-//! Whether a piece of a path fits in the words of its segment, and what is beside it in those of
-//! commands.
+//! Checks that a piece of a path fits in the words of its segment, and that its surroundings fit
+//! in those of commands.
 
 use crate::circuits::arc_generator::Widths as RecordWidths;
 use crate::input::{COORDINATES, Point};
@@ -7,7 +7,7 @@ use crate::path::circle::Circle;
 use crate::path::error::Reason;
 use crate::path::pieces::{Course, Piece};
 
-/// Checks that a piece's points, centre and radius are words.
+/// Checks that a piece's points, centre and radius fit in their words.
 pub(super) fn fits(
     from: Point,
     piece: &Piece,
@@ -30,8 +30,8 @@ pub(super) fn fits(
     hold("radius", circle.radius * counts_per_mm, widths)
 }
 
-/// Checks that a piece stays within half the range around the path's start, where the motors are at
-/// 0: the other half is for the corrected command, and for a response that goes too far.
+/// Checks that a piece stays within half the range around the path's start, where the motors are
+/// at 0: the other half is for the corrected command, and for an overshooting response.
 pub(super) fn margin(
     start: Point,
     piece: &Piece,
@@ -59,7 +59,7 @@ pub(super) fn margin(
     Ok(())
 }
 
-/// The circle that a piece is turned on.
+/// Returns the circle on which a piece turns.
 fn turned(course: &Course) -> Option<&Circle> {
     match course {
         Course::Line | Course::Spline(_) => None,
@@ -68,7 +68,7 @@ fn turned(course: &Course) -> Option<&Circle> {
     }
 }
 
-/// Checks that counts are a word.
+/// Checks that counts fit in a word.
 pub(super) fn hold(what: &'static str, counts: f64, widths: &RecordWidths) -> Result<(), Reason> {
     match widths.holds(counts) {
         true => Ok(()),

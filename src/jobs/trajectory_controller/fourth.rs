@@ -1,4 +1,4 @@
-//! A fourth axis beside a path in space: W, linear with the length of each piece.
+//! Fourth axis beside a path in space: W, linear with the length of each piece.
 
 use super::segments::{Arc, Segment, Stretch, two_to};
 use crate::circuits::trajectory_controller::Widths;
@@ -7,26 +7,27 @@ use crate::path::error::Reason;
 use crate::path::pieces::{Course, Piece};
 use crate::path::vector::scale;
 
-/// A fourth coordinate, which goes linearly with the length. All in guard units.
+/// Fourth coordinate of a segment, linear with the length, in guard units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fourth {
-    /// Where it begins.
+    /// Value at the start.
     pub base: i64,
-    /// Its way in a guard unit of the length.
+    /// Change per guard unit of length.
     pub along: f64,
 }
 
-/// W of the pieces of a path.
+/// Values of W on the pieces of a path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FourthAxis {
-    /// Where it begins, in mm.
+    /// Start in mm.
     pub from_mm: f64,
-    /// Where it is at the end of each piece.
+    /// Values at the end of each piece, in mm.
     pub to_mm: Vec<f64>,
 }
 
 impl Segment {
-    /// The words of a fourth axis, which follow these. An arc has it as a helix its rise.
+    /// Returns the words of a fourth axis, which follow these. An arc has them like a helix has
+    /// its rise.
     #[must_use]
     pub fn fourth_words(&self, widths: &Widths) -> Option<[u64; 4]> {
         let Fourth { base, along } = self.fourth?;
@@ -40,15 +41,15 @@ impl Segment {
         Some([word(base), of_line, 0, of_arc])
     }
 
-    /// W at a length behind its beginning, unrounded; 0 where there is none.
+    /// Returns W at a length after its start, unrounded; 0 if there is none.
     #[must_use]
     pub fn fourth_point(&self, offset: f64) -> f64 {
         let at = |Fourth { base, along }| base as f64 + along * offset;
         self.fourth.map_or(0.0, at)
     }
 
-    /// It with W beside it, of `length` guard units, and its length then. Its points are the same,
-    /// by a longer length.
+    /// Returns the segment with W added, and its new length; `length` is the old one in guard
+    /// units. Its points are unchanged, parametrised by the greater length.
     fn with_fourth(self, length: u64, base: i64, way: f64) -> (Self, u64) {
         let longer = (length as f64).hypot(way).round();
         let part = length as f64 / longer;
@@ -74,7 +75,7 @@ impl Segment {
     }
 }
 
-/// The segments of a piece with W from one place to another, in guard units.
+/// Returns the segments of a piece with W from one value to another, in guard units.
 pub(super) fn beside(
     made: Vec<Stretch>,
     from: Point,
@@ -97,7 +98,7 @@ pub(super) fn beside(
     if matches!(piece.course, Course::Spline(_)) {
         return Err(Reason::Climb);
     }
-    // W alone, where the others stand.
+    // W moves alone while the others rest.
     let alone = || Stretch {
         segment: Segment::line(from.map(|mm| (mm * unit).round()), [0.0; COORDINATES]),
         begin: 0,

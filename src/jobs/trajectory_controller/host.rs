@@ -1,4 +1,4 @@
-//! The control computer of a job: what it writes to the trajectory controller, tick by tick.
+//! Control computer of a job: its inputs to the trajectory controller, tick by tick.
 
 use super::path_writer::PathWriter;
 use super::program::Program;
@@ -12,21 +12,21 @@ use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::hdl::{Value, zero};
 use crate::path::record_writer::RecordWriter;
 
-/// Records of the profile that wait before the path begins, where there are so many.
+/// Number of profile records that wait before the path begins, if the profile has that many.
 const HEAD_START: usize = 16;
 
-/// The control computer: it writes the path, then starts, and writes records as they find room.
+/// Control computer: writes the path, then starts, and writes records as space allows.
 pub(super) struct Host<'a> {
     program: &'a Program,
     path: PathWriter<'a>,
     pub(super) records: RecordWriter<'a>,
     started: bool,
-    /// It gave nothing but what stands in this tick.
+    /// True if the inputs did not change in this tick.
     quiet: bool,
 }
 
 impl<'a> Host<'a> {
-    /// Of a program that is to be written from its first word on.
+    /// Creates a computer for a program that is to be written from its first word on.
     pub(super) fn new(program: &'a Program, correction: Correction) -> Self {
         Host {
             program,
@@ -37,7 +37,7 @@ impl<'a> Host<'a> {
         }
     }
 
-    /// What it gives to a circuit in every tick, with all else low.
+    /// Returns the inputs of a circuit that are constant, with all others low.
     pub(super) fn standing(&self, circuit: &TrajectoryController) -> In<Value> {
         let program = self.program;
         let servo = |word: fn(&ServoGains) -> u64| -> Vec<u64> {
@@ -66,13 +66,13 @@ impl<'a> Host<'a> {
         }
     }
 
-    /// Whether it gives in the tick to come what it gave in this one, the encoders' channels aside,
-    /// if what it looks at does not change.
+    /// True if the next tick's inputs will be the same, except for the encoders' channels,
+    /// provided that the observed signals do not change.
     pub(super) fn stands(&self) -> bool {
         self.quiet && self.records.stands(self.program.records.len())
     }
 
-    /// What it gives in this tick, with the encoders' channels.
+    /// Sets the inputs of this tick, including the encoders' channels.
     pub(super) fn drive(&mut self, i: &mut In<Value>, channels: [(bool, bool); AXES]) {
         let waiting = self.program.records.len().min(HEAD_START);
         let start = !self.started && self.path.is_done() && self.records.written() == waiting;

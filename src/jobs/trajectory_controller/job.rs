@@ -1,5 +1,5 @@
-//! A path on the trajectory controller, with a motor and its load on each axis: the control computer
-//! that feeds it, and what comes out, period by period.
+//! Run of a path on the trajectory controller, with a motor and its load on each axis: the control
+//! computer that feeds it, and the results, period by period.
 
 use super::host::Host;
 use super::load_torque::LoadStep;
@@ -13,7 +13,7 @@ use crate::plant::{Ahead, Plant, Plants, TwoMassAxis};
 use crate::settings::{JobError, SettingError};
 use std::array::from_fn;
 
-/// The controller that plays a job on so many axes.
+/// Returns the controller for a job on `axes` axes.
 #[must_use]
 pub const fn controller(
     axes: usize,
@@ -23,65 +23,65 @@ pub const fn controller(
     TrajectoryController::new(Widths::FULL, axes, correction, rounding)
 }
 
-/// Periods in a row in which models and motors are where they belong: then they have settled.
+/// Number of consecutive periods in which models and motors must be in place to count as settled.
 const CALM: u32 = 10;
-/// How far a settled motor is from its model, in counts.
+/// Greatest distance of a settled motor from its model, in counts.
 const NEAR_COUNTS: f64 = 2.0;
 
-/// An interpolation period. Positions are from where the path begins, in guard units where nothing
-/// else is said; an axis that there is not stays at 0.
+/// Interpolation period. Positions are relative to the start of the path, in guard units unless
+/// stated otherwise; 0 for an axis that does not exist.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Period {
-    /// The tick in which the servo's models have moved, and the motors are compared with them.
+    /// Tick in which the servo's models have moved, and the motors are compared with them.
     pub tick: u64,
-    /// q_c.
+    /// Commanded length q_c.
     pub length: i64,
-    /// q_s.
+    /// Length q_s of the tangential response.
     pub answered: i64,
-    /// P_c.
+    /// Command P_c.
     pub command: [i64; AXES],
-    /// P_r.
+    /// Reference P_r.
     pub reference: [i64; AXES],
-    /// P_s.
+    /// Response P_s.
     pub response: [i64; AXES],
-    /// P_d.
+    /// Corrected command P_d.
     pub corrected: [i64; AXES],
-    /// Of the servo's own model.
+    /// Position of the servo's own model.
     pub model: [i64; AXES],
-    /// Of the motor, in encoder counts.
+    /// Position of the motor in encoder counts.
     pub motor: [i64; AXES],
-    /// Of the load, in encoder counts.
+    /// Position of the load in encoder counts.
     pub load: [f64; AXES],
     /// Torque from this period on, in words of the amplifier.
     pub torque: [i64; AXES],
-    /// It is limited.
+    /// True if the torque is limited.
     pub saturated: [bool; AXES],
 }
 
-/// What came out of a path.
+/// Result of a path.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Played {
-    /// How many axes there are.
+    /// Number of axes.
     pub axes: usize,
-    /// The periods from the path's start on, its first length 0; none of [`play_each`].
+    /// Periods from the path's start on, the first with length 0; empty for [`play_each`].
     pub periods: Vec<Period>,
-    /// Of the motors in the last tick, in encoder counts.
+    /// Positions of the motors in the last tick, in encoder counts.
     pub motor: [i64; AXES],
-    /// The tick in which the path was started: before it, it was written.
+    /// Tick in which the path was started; it was written before.
     pub start: u64,
-    /// The ticks of the run.
+    /// Number of ticks of the run.
     pub ticks: u64,
-    /// A period began before the one before was over.
+    /// True if a period began before the one before had ended.
     pub late: bool,
-    /// The profile ended in motion.
+    /// True if the profile ended in motion.
     pub starved: bool,
-    /// An encoder was too fast.
+    /// True if an encoder was too fast.
     pub lost: bool,
-    /// Models and motors came to rest at the path's end.
+    /// True if models and motors came to rest at the path's end.
     pub settled: bool,
 }
 
-/// What is looked at.
+/// Observed signals.
 struct See {
     ready: At<bool>,
     busy: At<bool>,
@@ -95,7 +95,7 @@ struct See {
     axes: Vec<SeeAxis>,
 }
 
-/// What is looked at of an axis.
+/// Observed signals of an axis.
 struct SeeAxis {
     command: At<i64>,
     reference: At<i64>,
@@ -103,7 +103,7 @@ struct SeeAxis {
     corrected: At<i64>,
     model: At<i64>,
     motor: At<i64>,
-    /// The torque that the motor has.
+    /// Current torque of the motor.
     drive: At<i64>,
     torque: At<i64>,
     saturated: At<bool>,
@@ -144,15 +144,16 @@ impl See {
         }
     }
 
-    /// What is at a place of every axis; of one that there is not, what nothing is.
+    /// Returns the value at a place of every axis; the default for an axis that does not exist.
     fn each<T: Default>(&self, mut of: impl FnMut(&SeeAxis) -> T) -> [T; AXES] {
         from_fn(|k| self.axes.get(k).map(&mut of).unwrap_or_default())
     }
 
-    /// The period in which the motors are compared with their models: all of it stands, but for the
-    /// loads and the torques.
+    /// Returns the period in which the motors are compared with their models; complete except for
+    /// loads and torques.
     fn period(&self, now: &Sample<'_, TrajectoryController>) -> Option<Period> {
-        // Without a path the servo controls hold the machine: a period that began before the start.
+        // Without a path the servo controls hold the machine: a period that began before the
+        // start.
         if !now.get(self.fresh) || now.get(self.waiting) {
             return None;
         }
@@ -174,24 +175,24 @@ impl See {
     }
 }
 
-/// Motors with their loads, one for each axis, and what acts on these from outside.
+/// Motors with their loads, one for each axis, and external torques on the loads.
 struct Motors<'a> {
     axes: Vec<TwoMassAxis>,
     loads: &'a [LoadStep],
     now: Since,
 }
 
-/// How far the torques from outside are.
+/// Progress of the external torques.
 #[derive(Debug, Clone, Copy, Default)]
 struct Since {
-    /// Ticks since the path's start; none before it.
+    /// Ticks since the path's start; `None` before it.
     start: Option<u64>,
-    /// The step that comes next.
+    /// Index of the next step.
     next: usize,
 }
 
 impl Motors<'_> {
-    /// What acts on the loads in the tick to come.
+    /// Sets the external torques for the next tick.
     fn load(&mut self) {
         let Some(tick) = self.now.start else {
             return;
@@ -205,7 +206,7 @@ impl Motors<'_> {
         self.now.start = Some(tick + 1);
     }
 
-    /// Steps them under these torques; gives the channels of their encoders.
+    /// Steps the motors under these torques; returns the channels of their encoders.
     #[inline]
     fn step(&mut self, torques: [i64; AXES]) -> [(bool, bool); AXES] {
         self.load();
@@ -237,24 +238,25 @@ impl Plants for Motors<'_> {
     }
 }
 
-/// How long models and motors may take to settle, in periods: 20 times their slowest decay, and a
-/// second.
+/// Returns the greatest settling time of models and motors in periods: 20 times their slowest
+/// decay, and a second.
 pub(crate) fn patience(program: &Program) -> usize {
     let [k1, k2] = program.tangential.parts(&Widths::FULL);
     let slowest = 1.0 / k1 + 1.0 / k2;
     (20.0 * slowest + 1.0 / program.motion.period) as usize
 }
 
-/// Plays a program on `circuit`, with `plants` on its axes, which stand in the waves beside it
-/// ([`Machine`]); seen by `observer` too, until the path is over and models and motors have settled,
-/// for a bounded time.
+/// Plays a program on `circuit`, with `plants` on its axes, which are beside it in the waves
+/// ([`Machine`]); `observer` sees it too. Runs until the path has ended and models and motors have
+/// settled, for a bounded time.
 ///
-/// The path is written to the circuit before it begins, a word a tick, and the profile's records as
-/// they find room. The plants are stepped once a tick, with the torques of the tick before.
+/// The path is written to the circuit before it begins, one word per tick, and the profile's
+/// records as space allows. The plants are stepped once per tick, with the torques of the tick
+/// before.
 ///
 /// # Errors
-/// The path has more segments than the circuit holds, there is not a plant for each axis, or what
-/// `observer` objects to.
+/// Returns an error if the path has more segments than the circuit holds or there is not a plant
+/// for each axis, or the error of `observer`.
 pub fn play(
     circuit: &TrajectoryController,
     program: &Program,
@@ -267,10 +269,10 @@ pub fn play(
     Ok(Played { periods, ..played })
 }
 
-/// Does what [`play`] does, but gives every period to `each` as it comes and keeps none.
+/// Plays as [`play`] does, but passes every period to `each` and keeps none.
 ///
 /// # Errors
-/// Errors of [`play`].
+/// Returns the errors of [`play`].
 pub fn play_each(
     circuit: &TrajectoryController,
     program: &Program,

@@ -1,69 +1,69 @@
-//! Torques on the loads from outside: cutting forces, weights.
+//! External torques on the loads: cutting forces, weights.
 
 use crate::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use crate::settings::{Place, SettingError, within};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
-/// Torques that are accepted, in N·m.
+/// Allowed torques in N·m.
 pub const LOAD_TORQUE_RANGE_NM: RangeInclusive<f64> = -1e9..=1e9;
 
-/// Times from the path's start that are accepted, in s.
+/// Allowed times from the path's start in s.
 pub const LOAD_TIME_RANGE_S: RangeInclusive<f64> = 0.0..=1e6;
 
-/// An axis by its name.
+/// Axis by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum AxisName {
-    /// The first.
+    /// First axis.
     X,
-    /// The second.
+    /// Second axis.
     Y,
-    /// The third.
+    /// Third axis.
     Z,
-    /// The fourth.
+    /// Fourth axis.
     W,
 }
 
 impl AxisName {
-    /// Its number.
+    /// Returns the index of the axis.
     #[must_use]
     pub fn index(self) -> usize {
         self as usize
     }
 }
 
-/// A torque on the load of an axis, for a time. Those of one axis add.
+/// Torque on the load of an axis, for a time. Torques on one axis add up.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoadTorque {
-    /// The axis.
+    /// Axis.
     pub axis: AxisName,
-    /// The torque at the motor's shaft, in N·m: with a plus it pushes forwards.
+    /// Torque at the motor's shaft in N·m; positive pushes forwards.
     pub torque_nm: f64,
-    /// From when on, in s from the tick of the path's start.
+    /// Start time in s from the tick of the path's start.
     #[serde(default)]
     pub from_s: f64,
-    /// Until when; without it until the run is over.
+    /// End time in s; by default the end of the run.
     pub to_s: Option<f64>,
 }
 
-/// From this tick behind the path's start on, the load of an axis has this torque.
+/// Step of the external torque on the load of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadStep {
-    /// The tick.
+    /// Tick after the path's start.
     pub tick: u64,
-    /// The axis.
+    /// Index of the axis.
     pub axis: usize,
-    /// All torques from outside together, in N·m.
+    /// Sum of all external torques from this tick on, in N·m.
     pub torque_nm: f64,
 }
 
-/// The steps of some torques on so many axes, in the order of their ticks.
+/// Returns the steps of some torques on `axes` axes, in the order of their ticks.
 ///
 /// # Errors
-/// The first torque at fault: of an axis that there is not, out of range, or that ends before it
-/// begins.
+/// Returns the first torque at fault: on an axis that does not exist, out of range, or with an end
+/// before its start.
 pub fn load_steps(
     torques: &[LoadTorque],
     axes: usize,

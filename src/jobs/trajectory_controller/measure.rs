@@ -1,4 +1,4 @@
-//! What came out: how far models, motors and loads were from the path, and from their commands.
+//! Measures of a run: distances of models, motors and loads from the path and from their commands.
 
 use super::job::{Period, Played, Program};
 use super::segments::{Arc, Path, Segment};
@@ -10,77 +10,77 @@ use crate::path::vector::{add, dot, scale, sub};
 use std::array::from_fn;
 use std::f64::consts::TAU;
 
-/// Guard units of a count.
+/// Guard units per count.
 const COUNT: f64 = (1u64 << Widths::FULL.guard()) as f64;
 
-/// A period of a run, in mm.
+/// Deviation in a period of a run, in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
-    /// Time from the path's start, in s.
+    /// Time from the path's start in s.
     pub time_s: f64,
-    /// Length along the path of the point nearest to it.
+    /// Length along the path of the nearest point.
     pub length_mm: f64,
-    /// X, Y and Z of where it was.
+    /// Actual position in X, Y and Z.
     pub actual: Point,
-    /// Those of the nearest point of the path.
+    /// Nearest point of the path.
     pub nearest: Point,
-    /// W of where it was; 0 where there is none.
+    /// Actual W; 0 if there is none.
     pub w_mm: f64,
-    /// Contour error: the distance of both, with W where there is one.
+    /// Contour error: the distance of both, including W if there is one.
     pub contour_mm: f64,
-    /// Following error: the distance from P_c of the same period, likewise.
+    /// Following error: the distance from P_c of the same period, including W if there is one.
     pub following_mm: f64,
 }
 
-/// The largest of an error.
+/// Greatest value of an error.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Peak {
-    /// In mm.
+    /// Value in mm.
     pub mm: f64,
-    /// The period.
+    /// Period.
     pub period: usize,
-    /// Its tick.
+    /// Tick of the period.
     pub tick: u64,
     /// Length along the path of the nearest point.
     pub length_mm: f64,
 }
 
-/// What was between the path and models, motors or loads.
+/// Errors of models, motors or loads.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Errors {
-    /// Period by period; none of [`Measuring`].
+    /// Deviations, period by period; empty for [`Measuring`].
     pub deviations: Vec<Deviation>,
-    /// Largest contour error.
+    /// Greatest contour error.
     pub contour: Peak,
-    /// Root of the mean square of the contour error.
+    /// Root mean square of the contour error.
     pub contour_rms_mm: f64,
-    /// Largest following error.
+    /// Greatest following error.
     pub following: Peak,
-    /// Root of the mean square of the following error.
+    /// Root mean square of the following error.
     pub following_rms_mm: f64,
     /// Distance from the path's end in the last period.
     pub final_mm: f64,
 }
 
-/// Measured on a run.
+/// Measures of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// The models of the servos: what the motors are held to.
+    /// Errors of the servos' models, which the motors follow.
     pub model: Errors,
-    /// The motors, by their encoders.
+    /// Errors of the motors, by their encoders.
     pub motor: Errors,
-    /// The loads.
+    /// Errors of the loads.
     pub load: Errors,
-    /// Largest torque of each axis, in words.
+    /// Greatest torque of each axis, in words.
     pub torque: Vec<i64>,
-    /// Periods in which it was limited, of each axis.
+    /// Number of periods with limited torque, for each axis.
     pub saturated: Vec<usize>,
-    /// Largest distance of each motor from its model, in mm.
+    /// Greatest distance of each motor from its model, in mm.
     pub off_model_mm: Vec<f64>,
 }
 
 impl Measured {
-    /// Measures a run; `None` of one without periods.
+    /// Measures a run; `None` for a run without periods.
     #[must_use]
     pub fn of(program: &Program, played: &Played) -> Option<Self> {
         let mut measuring = Measuring::new(program, played.axes);
@@ -99,13 +99,13 @@ impl Measured {
     }
 }
 
-/// Measures a run while it goes on.
+/// Measurement of a run while it goes on.
 #[derive(Debug)]
 pub struct Measuring<'p> {
     program: &'p Program,
-    /// Periods so far.
+    /// Number of periods so far.
     periods: usize,
-    /// Of models, motors and loads.
+    /// Errors of models, motors and loads.
     errors: [Errors; 3],
     torque: Vec<i64>,
     saturated: Vec<usize>,
@@ -113,7 +113,7 @@ pub struct Measuring<'p> {
 }
 
 impl<'p> Measuring<'p> {
-    /// Measures a run of `program` on so many axes.
+    /// Creates a measurement of a run of `program` on `axes` axes.
     #[must_use]
     pub fn new(program: &'p Program, axes: usize) -> Self {
         Measuring {
@@ -126,7 +126,7 @@ impl<'p> Measuring<'p> {
         }
     }
 
-    /// Takes the next period; returns the deviations of models, motors and loads.
+    /// Adds the next period; returns the deviations of models, motors and loads.
     pub fn take(&mut self, period: &Period) -> [Deviation; 3] {
         for axis in 0..self.torque.len() {
             self.torque[axis] = self.torque[axis].max(period.torque[axis].abs());
@@ -148,7 +148,7 @@ impl<'p> Measuring<'p> {
         })
     }
 
-    /// Measures of all of them, without the single deviations; `None` without periods.
+    /// Returns the measures, without the single deviations; `None` without periods.
     #[must_use]
     pub fn finish(self) -> Option<Measured> {
         let periods = Some(self.periods).filter(|periods| *periods > 0)? as f64;
@@ -171,7 +171,7 @@ impl<'p> Measuring<'p> {
 }
 
 impl Errors {
-    /// Adds a period. The means are sums of squares as long as they are not finished.
+    /// Adds a period. Until the measurement is finished, the means are sums of squares.
     fn add(&mut self, deviation: &Deviation, end_mm: f64, period: usize, tick: u64) {
         let (contour, following) = (deviation.contour_mm, deviation.following_mm);
         self.contour_rms_mm += contour.powi(2);
@@ -193,8 +193,8 @@ impl Errors {
     }
 }
 
-/// Deviation of a position in a period, both from where the path begins, and its distance from the
-/// path's end in mm.
+/// Returns the deviation of a position in a period, both relative to the start of the path, and
+/// its distance from the path's end in mm.
 fn deviation(
     program: &Program,
     period: &Period,
@@ -210,8 +210,8 @@ fn deviation(
     let actual = place(position);
     let command = place(period.command.map(|units| units as f64));
     let following = apart(actual, command);
-    // It is about where the tangential response is. What is nearer is within twice the way to
-    // there; beyond that the path may come by again.
+    // The position is near that of the tangential response. Nearer points are within twice the
+    // distance to it; beyond that the path may pass by again.
     let answered = period.answered as f64;
     let reach = 2.0 * apart(actual, path.place(answered)) + COUNT;
     let (length, nearest) = path.nearest(actual, [answered - reach, answered + reach]);
@@ -227,7 +227,7 @@ fn deviation(
     (deviation, mm * apart(actual, path.place(end)))
 }
 
-/// Distance of two points, with W.
+/// Returns the distance of two points, including W.
 #[must_use]
 pub fn apart(one: [f64; AXES], other: [f64; AXES]) -> f64 {
     let squares = one.iter().zip(other).map(|(a, b)| (a - b) * (a - b));
@@ -235,8 +235,8 @@ pub fn apart(one: [f64; AXES], other: [f64; AXES]) -> f64 {
 }
 
 impl Path {
-    /// The point between two lengths that is nearest to a point, and its length; the first of
-    /// several. All in guard units.
+    /// Returns the length and the point between two lengths that is nearest to a point; the first
+    /// of several. All in guard units.
     #[must_use]
     pub fn nearest(&self, point: [f64; AXES], window: [f64; 2]) -> (f64, [f64; AXES]) {
         let [from, to] = window.map(|length| length.clamp(0.0, self.length as f64));
@@ -251,7 +251,7 @@ impl Path {
                 let near = stretch.segment.place(offset);
                 let off = apart(point, near);
                 if off < least {
-                    // The sum may be rounded over an end.
+                    // Rounding may move the sum past an end.
                     let length = (begin + offset).max(from).min(to);
                     (best, least) = ((length, near), off);
                 }
@@ -262,20 +262,20 @@ impl Path {
 }
 
 impl Segment {
-    /// Offsets between two of them of which one is nearest to a point.
+    /// Returns offsets between two limits, one of which is nearest to a point.
     fn candidates(&self, place: [f64; AXES], [from, to]: [f64; 2]) -> Vec<f64> {
         let [x, y, z, w] = place;
         let (point, climb) = ([x, y, z], self.fourth.map_or(0.0, |fourth| fourth.along));
-        // W stands still along a spline.
+        // W is constant along a spline.
         if let Some(bits) = self.powers {
-            // It turns by so little that there is one at most.
+            // The spline turns so little that there is at most one.
             let ahead = |at: f64| dot(sub(self.point(at), point), self.derivatives(bits, at)[0]);
             return vec![from, to, rise([from, to], ahead)];
         }
         let way = sub(point, self.base.map(|units| units as f64));
         let [along, across] = [dot(way, self.along), dot(way, self.across)];
         let Some(arc) = self.arc else {
-            // A way of length 1 in a unit of length, but for the length's rounding.
+            // Motion of length 1 per unit of length, except for rounding.
             let square = dot(self.along, self.along) + climb * climb;
             let ahead = along + climb * (w - self.fourth_point(0.0));
             return vec![(ahead / square).clamp(from, to)];
@@ -296,7 +296,7 @@ impl Segment {
         offsets
     }
 
-    /// Derivative of a helix by its length.
+    /// Returns the derivative of a helix by its length.
     fn helical(&self, arc: &Arc, offset: f64) -> Point {
         let (sin, cos) = (TAU * (offset / arc.turn)).sin_cos();
         let around = sub(scale(self.across, cos), scale(self.along, sin));

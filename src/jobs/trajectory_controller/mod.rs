@@ -1,12 +1,13 @@
-//! A path on the trajectory controller: planned, written as segments and records, played with motors
-//! and loads, and measured.
+//! A path on the trajectory controller: planned, written as segments and records, played with
+//! motors and loads, and measured.
 //!
 //! [`segments`] and [`splines`] (pieces of a path by their length), [`axis_limits`],
-//! [`speed_limits`] and [`planner`] (how fast it is run where, by [`ramp`]s, as a
-//! [`profile`](mod@profile)), [`profile_record`] (the profile as words), [`servo_gains`], [`program`]
-//! (all of it together), [`job`] (a path on the circuit, with motors), [`mod@load_torque`] (what acts
-//! on the loads from outside), [`measure`] (what came out), [`closed`] (what comes out on a circle),
-//! [`settings`], in which [`each_axis`] is one number or one for each axis.
+//! [`speed_limits`] and [`planner`] (speed along the path, by [`ramp`]s, as a
+//! [`profile`](mod@profile)), [`profile_record`] (the profile as words), [`servo_gains`],
+//! [`program`] (all of these together), [`job`] (a path on the circuit, with motors),
+//! [`mod@load_torque`] (external torques on the loads), [`measure`] (measures of the results),
+//! [`closed`] (closed forms for a circle), [`settings`], in which [`each_axis`] is one number or
+//! one for each axis.
 
 pub mod axis_limits;
 pub mod closed;

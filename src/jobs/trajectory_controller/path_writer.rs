@@ -1,4 +1,4 @@
-//! What a control computer gives to the segment stores: the path, a word a tick.
+//! Control computer that writes the path to the segment stores, one word per tick.
 
 use super::program::Program;
 use crate::circuits::trajectory_controller::path_point::{AXES, PathWrite};
@@ -7,27 +7,28 @@ use crate::circuits::trajectory_controller::{Widths, segment_store};
 use crate::hdl::Value;
 use crate::input::COORDINATES;
 
-/// Words of a segment that are looked at, and of one with a third coordinate.
+/// Number of words read of a segment, and of one with a third coordinate.
 const SEGMENT_WORDS: [usize; 2] = [13, segment_store::WORDS];
 
-/// With a fourth axis all are.
+/// Number of words with a fourth axis, which are all read.
 const MOST_WORDS: usize = Widths::FULL.point().of_axes(AXES).words();
 
-/// A path that is written segment after segment.
+/// Writer of a path, segment after segment.
 #[derive(Debug)]
 pub(crate) struct PathWriter<'a> {
     program: &'a Program,
     correction: Correction,
-    /// The segment and the word of it that are written next, and the segment's words.
+    /// Next segment and word to write, and the segment's words.
     segment: usize,
     word: usize,
     words: [u64; MOST_WORDS],
-    /// How many of them are written.
+    /// Number of words to write.
     count: usize,
 }
 
 impl<'a> PathWriter<'a> {
-    /// Of a program that is to be written from its first word on, to a controller with this correction.
+    /// Creates a writer of a program from its first word on, for a controller with this
+    /// correction.
     pub(crate) fn new(program: &'a Program, correction: Correction) -> Self {
         let mut writer = PathWriter {
             program,
@@ -41,12 +42,13 @@ impl<'a> PathWriter<'a> {
         writer
     }
 
-    /// Whether all is written.
+    /// True if everything is written.
     pub(crate) fn is_done(&self) -> bool {
         self.segment >= self.program.path.stretches.len()
     }
 
-    /// The words of the segment that is written next: the motors are at 0 where the path begins.
+    /// Prepares the words of the next segment, relative to the start of the path, where the motors
+    /// are at 0.
     fn prepare(&mut self) {
         let Some(stretch) = self.program.path.stretches.get(self.segment) else {
             return;
@@ -69,7 +71,7 @@ impl<'a> PathWriter<'a> {
         }
     }
 
-    /// The word of this tick.
+    /// Returns the write of this tick.
     pub(crate) fn write(&mut self) -> PathWrite<Value> {
         let (segment, word) = (self.segment, self.word);
         let widths = Widths::FULL.point().of_axes(self.program.gains.len());

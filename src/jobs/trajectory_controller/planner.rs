@@ -1,4 +1,4 @@
-//! Look-ahead: how fast the path is run where (¶0033).
+//! Look-ahead: speed along the path (¶0033).
 //!
 //! ```text
 //!  limits ‾‾‾|____|‾‾‾‾‾‾|  |‾‾‾‾‾       A stretch between two known speeds is given the highest
@@ -8,45 +8,45 @@
 //!                                        same way.
 //! ```
 //!
-//! All ramps begin and end without acceleration, so a ramp may pass any number of segments, and any
-//! number of ramps fit together. With t_j = 0 the result is that of a backward and a forward pass,
-//! the fastest there is.
+//! All ramps begin and end without acceleration, so a ramp may pass any number of segments, and
+//! any number of ramps fit together. With t_j = 0 the result equals that of a backward and a
+//! forward pass, the fastest possible.
 
 use super::profile::Profile;
 use super::ramp::{Ramp, Slope};
 use super::speed_limits::{Span, SpeedLimits};
 
-/// A peak that gains less than this part of the speed is left out.
+/// Relative gain of speed below which a peak is left out.
 const GAIN: f64 = 1e-3;
 
-/// How near a speed is found, as a part of it.
+/// Relative precision of a speed.
 const NEAR: f64 = 1e-13;
 
-/// A place and the speed there, without acceleration.
+/// Position with its speed, without acceleration.
 #[derive(Debug, Clone, Copy)]
 struct Node {
     at: f64,
     speed: f64,
 }
 
-/// What is yet to be planned, or planned and yet to be written.
+/// Task of planning, or of writing a planned part.
 enum Task {
     Between(Node, Node),
     Ramp(Node, f64),
     Cruise(Node, f64),
 }
 
-/// What keeps a speed from being higher.
+/// Constraint that limits a speed.
 enum Bound {
-    /// The length.
+    /// Available length.
     Room,
-    /// A limit on the ramp up.
+    /// Limit on the ramp up.
     Up,
-    /// A limit on the ramp down.
+    /// Limit on the ramp down.
     Down,
 }
 
-/// The profile over all spans, at rest at both ends and at every stop.
+/// Plans the profile over all spans, at rest at both ends and at every stop.
 #[must_use]
 pub fn plan(spans: &[Span], slope: Slope) -> Profile {
     let limits = SpeedLimits::new(spans);
@@ -84,13 +84,14 @@ struct Planner<'a> {
 }
 
 impl Planner<'_> {
-    /// Where the ramps from and to a speed between two nodes end and begin.
+    /// Returns the positions at which the ramps from and to a speed between two nodes end and
+    /// begin.
     fn steady(&self, from: Node, to: Node, speed: f64) -> [f64; 2] {
         let way = |node: Node| self.slope.ramp(node.speed, speed).way();
         [from.at + way(from), to.at - way(to)]
     }
 
-    /// Plans what is between two nodes, the slower of whose speeds is reached from the other.
+    /// Plans the part between two nodes; the slower of their speeds can be reached from the other.
     fn between(&mut self, from: Node, to: Node) {
         let least = from.speed.max(to.speed);
         let fits = |speed: f64| {
@@ -144,8 +145,8 @@ impl Planner<'_> {
         self.tasks.push(Task::Between(Node { at, speed }, to));
     }
 
-    /// The highest speed below `speed` to which the ramp at a node is under the limits of the
-    /// joints, which come by their distance from it; none where that is `speed`.
+    /// Returns the greatest speed below `speed` for which the ramp at a node is below the limits
+    /// of the joints, which are ordered by their distance from it; `None` if that is `speed`.
     fn under(
         &self,
         node: Node,
@@ -173,8 +174,8 @@ impl Planner<'_> {
         (highest_speed < speed).then_some(highest_speed)
     }
 
-    /// Where a limit is met between the ramps from and to a speed: the limit, and from where to
-    /// where it is the speed.
+    /// Returns the limit that applies between the ramps from and to a speed, if there is one, and
+    /// the range in which it is the speed.
     fn held(&self, from: Node, to: Node, speed: f64) -> Option<(f64, f64, f64)> {
         let limits = self.limits;
         let [begin, end] = self.steady(from, to, speed);
@@ -193,7 +194,7 @@ impl Planner<'_> {
             return None;
         }
         let [begin, end] = self.steady(from, to, limit);
-        // As far as the spans at the joint have the limit too.
+        // Includes the spans at the joint that have the same limit.
         if let Some(joint) = lowest {
             if limits.on_span[joint - 1] <= limit {
                 first = limits.joints[joint - 1];
@@ -240,7 +241,7 @@ impl Planner<'_> {
     }
 }
 
-/// The highest number that fits, between one that does and one that may.
+/// Returns the greatest number that fits, between one that does and one that may.
 fn highest(mut low: f64, mut high: f64, fits: impl Fn(f64) -> bool) -> f64 {
     if fits(high) {
         return high;

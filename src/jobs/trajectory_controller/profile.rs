@@ -1,22 +1,22 @@
-//! The length along the path in time (¶0033): pieces of constant jerk.
+//! Length along the path over time (¶0033): pieces of constant jerk.
 
-/// A piece of a profile, from its start to that of the next.
+/// Piece of a profile, from its start to that of the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cubic {
-    /// When it starts.
+    /// Start time.
     pub t: f64,
-    /// Length along the path there.
+    /// Length along the path at the start.
     pub q: f64,
-    /// Speed there.
+    /// Speed at the start.
     pub v: f64,
-    /// Acceleration there.
+    /// Acceleration at the start.
     pub a: f64,
-    /// Its jerk.
+    /// Jerk.
     pub jerk: f64,
 }
 
 impl Cubic {
-    /// Length, speed and acceleration at a time.
+    /// Returns length, speed and acceleration at a time.
     #[must_use]
     pub fn at(&self, t: f64) -> [f64; 3] {
         let Cubic { q, v, a, jerk, .. } = *self;
@@ -29,26 +29,27 @@ impl Cubic {
     }
 }
 
-/// A profile: q(t) from q(0) = 0 to q(T) = L, at rest at both ends.
+/// Profile q(t) from q(0) = 0 to q(T) = L, at rest at both ends.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Profile {
-    /// In order.
+    /// Pieces in order.
     pub pieces: Vec<Cubic>,
-    /// T.
+    /// Duration T.
     pub duration: f64,
-    /// L.
+    /// Length L.
     pub length: f64,
 }
 
 impl Profile {
-    /// The piece that a time is in.
+    /// Returns the index of the piece at a time.
     #[must_use]
     pub fn index(&self, t: f64) -> usize {
         let after = self.pieces.partition_point(|piece| piece.t <= t);
         after.saturating_sub(1)
     }
 
-    /// Length, speed and acceleration at a time; at rest before the start and from the end on.
+    /// Returns length, speed and acceleration at a time; at rest before the start and from the end
+    /// on.
     #[must_use]
     pub fn at(&self, t: f64) -> [f64; 3] {
         match self.pieces.get(self.index(t)) {
@@ -57,7 +58,7 @@ impl Profile {
         }
     }
 
-    /// Appends `time` of a piece, unless that is too short to be told from nothing.
+    /// Appends `time` of a piece, unless that is below the resolution of time.
     pub(super) fn push(&mut self, time: f64, q: f64, [v, a, jerk]: [f64; 3]) {
         let end = self.duration + time;
         if end <= self.duration {

@@ -1,4 +1,4 @@
-//! A profile as records of the arc generator's format, of which coordinate x is the length.
+//! Records of a profile in the arc generator's format; coordinate x is the length.
 //!
 //! ```text
 //!  q(t)   ──────┬───────────────┬─────────   pieces of constant jerk
@@ -7,29 +7,29 @@
 //!               └───┘           └───┘        records of one sample, a line, where the piece changes
 //! ```
 //!
-//! A cubic of samples has constant third differences, so a record plays it by three additions a
-//! sample. It begins at a whole guard unit; its differences are whole multiples of 2^-40 of one, and
-//! the first of them is chosen for the record to end where the piece is, so that what was rounded
-//! away at the start does not stay. Every sample is so within a guard unit of q(t), and the last is
-//! L.
+//! Samples of a cubic have constant third differences, so a record plays it by three additions per
+//! sample. It begins at a whole guard unit; its differences are multiples of 2^-40 of one. The
+//! first difference is chosen such that the record ends where the piece does, so that rounding at
+//! the start does not persist. Every sample is therefore within a guard unit of q(t), and the last
+//! is L.
 
 use super::profile::{Cubic, Profile};
 use crate::circuits::trajectory_controller::{Rounding, Widths};
 use crate::jobs::arc_generator::reference::Decoded;
 use crate::path::record::{Record, WORDS, coordinate_word};
 
-/// The most samples of a record: within them, third differences that are rounded to 2^-40 do not
-/// add up to a fiftieth of a guard unit.
+/// Greatest number of samples of a record: within them, third differences rounded to 2^-40 add up
+/// to less than a fiftieth of a guard unit.
 const MOST_SAMPLES: u64 = 1 << 13;
 
 /// Kinds of records, both played alike.
 const CUBIC: u64 = 0;
 const LINE: u64 = 1;
 
-/// The records of a profile, with a sample every `period`, in the profile's unit of time.
+/// Returns the records of a profile, with a sample every `period`, in the profile's unit of time.
 ///
-/// Sample 0 is the start. Sample n is that of n·period, up to the last, which is the first at or
-/// behind the profile's end.
+/// Sample 0 is the start. Sample n is at n·period, up to the last, which is the first at or after
+/// the profile's end.
 #[must_use]
 pub fn records(profile: &Profile, period: f64, widths: &Widths) -> Vec<Record> {
     let last = (profile.duration / period).ceil() as u64;
@@ -47,7 +47,7 @@ pub fn records(profile: &Profile, period: f64, widths: &Widths) -> Vec<Record> {
             Some(next) => next.t,
             None => profile.duration,
         };
-        // The last sample before the piece's end.
+        // Last sample before the piece's end.
         let inside = ((end / period).ceil() as u64).saturating_sub(1);
         let inside = inside.min(sample + most);
         let ends = [at(sample), at(inside.max(sample + 1))];
@@ -73,7 +73,8 @@ pub fn records(profile: &Profile, period: f64, widths: &Widths) -> Vec<Record> {
     records
 }
 
-/// Second and third difference of a piece's samples from a time on, in units of the modulus.
+/// Returns second and third difference of a piece's samples from a time on, in units of the
+/// modulus.
 fn cubic(piece: &Cubic, t: f64, period: f64, widths: &Widths) -> [i128; 2] {
     let [_, _, a] = piece.at(t);
     let third = piece.jerk * period.powi(3);
@@ -81,7 +82,7 @@ fn cubic(piece: &Cubic, t: f64, period: f64, widths: &Widths) -> [i128; 2] {
     [second, third].map(|difference| (difference * modulus(widths) as f64).round() as i128)
 }
 
-/// 2^(F − 1).
+/// Returns 2^(F − 1).
 fn modulus(widths: &Widths) -> i128 {
     1 << (widths.fraction - 1)
 }
@@ -95,11 +96,11 @@ fn record(
     widths: &Widths,
 ) -> Record {
     let (n, modulus) = (i128::from(samples), modulus(widths));
-    // From the start over n first, C(n, 2) second and C(n, 3) third differences to the end.
+    // From the start by n first, C(n, 2) second and C(n, 3) third differences to the end.
     let way = i128::from(end - start) * modulus;
     let way = match samples {
         1 => way,
-        // What is left of the end beside its whole.
+        // Adds the fractional part of the end.
         _ => way + ((exact_end - end as f64) * modulus as f64).round() as i128,
     };
     let bends = n * (n - 1) / 2 * second + n * (n - 1) * (n - 2) / 6 * third;
@@ -117,7 +118,7 @@ fn record(
     Record { words }
 }
 
-/// The lengths of all samples, the start first, by plain integer arithmetic.
+/// Returns the lengths of all samples, the start first, by plain integer arithmetic.
 #[must_use]
 pub fn lengths(records: &[Record], widths: &Widths) -> Vec<i64> {
     let samples = records.iter().enumerate().flat_map(|(index, record)| {

@@ -1,4 +1,4 @@
-//! What a run is made of: the path, its profile in time, and the words of both and of the servos.
+//! Program of a run: the path, its profile over time, and the words of both and of the servos.
 
 use super::axis_limits;
 use super::job::controller;
@@ -19,56 +19,56 @@ use crate::path::record::Record;
 use crate::plant::TwoMassParameters;
 use crate::settings::{Place, SettingError, tidy};
 
-/// How far the counts of a millimetre on the path and at the encoder may be apart, as a part.
+/// Greatest relative difference of the counts per millimetre on the path and at the encoder.
 const SAME: f64 = 1e-9;
 
-/// A path that is ready to be run.
+/// Path that is ready to run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Program {
-    /// By its length.
+    /// Path by its length.
     pub path: Path,
-    /// Its length in time: guard units and seconds.
+    /// Length over time, in guard units and seconds.
     pub profile: Profile,
-    /// The profile's words.
+    /// Words of the profile.
     pub records: Vec<Record>,
-    /// Δt.
+    /// Period Δt in ticks.
     pub period_ticks: u32,
-    /// What it was planned by.
+    /// Limits used for planning.
     pub motion: Motion,
-    /// K1 and K2 of each axis.
+    /// Gains K1 and K2 of each axis.
     pub gains: Vec<Gains>,
-    /// Those of the tangential response: of the slowest axis, as no other is to be waited for by it.
+    /// Gains of the tangential response: those of the slowest axis, for which no other has to
+    /// wait.
     pub tangential: Gains,
-    /// Of the error feedback.
+    /// Gains of the error feedback.
     pub feedback: FeedbackGains,
-    /// Of the axes, of which there are as many as there are machine parameters; the others are 0.
+    /// Gains of the servos, one for each machine parameter; others are 0.
     pub servo: [ServoGains; AXES],
-    /// Torques on the loads from outside.
+    /// External torques on the loads.
     pub load_steps: Vec<LoadStep>,
-    /// Where the path begins, in guard units: the motors stand at 0 there.
+    /// Start of the path in guard units, where the motors are at 0.
     pub origin: [i64; AXES],
 }
 
-/// The most periods of a path: so many, the records of its profile fit into memory.
+/// Greatest number of periods of a path: the records of its profile then fit into memory.
 pub const MOST_PERIODS: u64 = 1 << 32;
 
-/// Why there is no program.
+/// Reason why there is no program.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ProgramError {
     /// A piece of the path is at fault.
     #[error(transparent)]
     Path(#[from] PathError),
-    /// A setting, or a parameter of an axis.
+    /// A setting or a parameter of an axis is at fault.
     #[error(transparent)]
     Setting(#[from] SettingError),
 }
 
 impl Program {
-    /// Plans the path of `pieces` from `start` on, for two or three axes: as many as `machine` has.
+    /// Plans the path of `pieces` from `start` on, for two or three axes, the number in `machine`.
     ///
     /// # Errors
-    /// A setting, a piece or an axis that is at fault: the first. Two axes run in the plane of
-    /// `start` only.
+    /// Returns the first setting, piece or axis at fault. Two axes stay in the plane of `start`.
     pub fn of(
         start: Point,
         pieces: &[Piece],
@@ -79,10 +79,11 @@ impl Program {
         Self::with_fourth(start, pieces, None, settings, machine, widths)
     }
 
-    /// The same for four axes, where there is a fourth.
+    /// Plans a path for four axes, if there is a fourth.
     ///
     /// # Errors
-    /// As [`Program::of`]; and a period that is too short for a fourth axis.
+    /// Returns the errors of [`Program::of`], and an error for a period that is too short for a
+    /// fourth axis.
     pub fn with_fourth(
         start: Point,
         pieces: &[Piece],

@@ -1,4 +1,4 @@
-//! A ramp: from one speed to another, without acceleration at both ends.
+//! Ramp from one speed to another, without acceleration at both ends.
 //!
 //! ```text
 //!  acceleration   ___________
@@ -8,39 +8,39 @@
 //!              t_j           t_j
 //! ```
 //!
-//! Below |Δv| = a·t_j there is no time for the whole acceleration: it rises as steeply, and falls at
-//! once. With t_j = 0 it is constant. With a time constant τ a is the higher speed over τ, so from
-//! rest every speed is reached in the same time.
+//! Below |Δv| = a·t_j there is no time for the full acceleration: it rises with the same slope,
+//! and falls at once. With t_j = 0 it is constant. With a time constant τ, a is the higher speed
+//! divided by τ, so from rest every speed is reached in the same time.
 
-/// Acceleration and jerk time: what ramps are made with.
+/// Acceleration and jerk time of ramps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slope {
-    /// a: largest acceleration, above 0.
+    /// Greatest acceleration a, above 0.
     pub acceleration: f64,
-    /// τ: time from rest to any speed, but for t_j, where `acceleration` allows it; 0 for a ramp with
-    /// `acceleration` to all of them.
+    /// Time τ from rest to any speed, without t_j, if `acceleration` allows it; 0 for ramps with
+    /// constant `acceleration`.
     pub time_constant: f64,
-    /// t_j: time in which it comes and goes, 0 or more.
+    /// Time t_j in which the acceleration rises or falls, at least 0.
     pub jerk_time: f64,
 }
 
-/// A ramp. Lengths and times are in the units of its speeds.
+/// Ramp. Lengths and times are in the units of its speeds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ramp {
-    /// The lower of its speeds.
+    /// Lower speed.
     pub low: f64,
-    /// The higher.
+    /// Higher speed.
     pub high: f64,
     /// Time in which the acceleration rises, and in which it falls.
     pub rise: f64,
     /// Time of constant acceleration.
     pub flat: f64,
-    /// That acceleration, as a magnitude.
+    /// Magnitude of the constant acceleration.
     pub peak: f64,
 }
 
 impl Slope {
-    /// The ramp between two speeds, up or down.
+    /// Returns the ramp between two speeds, up or down.
     #[must_use]
     pub fn ramp(&self, one: f64, other: f64) -> Ramp {
         let (low, high) = (one.min(other), one.max(other));
@@ -67,19 +67,19 @@ impl Slope {
 }
 
 impl Ramp {
-    /// Its time.
+    /// Returns the time of the ramp.
     #[must_use]
     pub fn time(&self) -> f64 {
         2.0 * self.rise + self.flat
     }
 
-    /// Its length.
+    /// Returns the length of the ramp.
     #[must_use]
     pub fn way(&self) -> f64 {
         f64::midpoint(self.low, self.high) * self.time()
     }
 
-    /// Change of the acceleration in time, as a magnitude; 0 where the acceleration is constant.
+    /// Returns the magnitude of the jerk; 0 if the acceleration is constant.
     #[must_use]
     pub fn jerk(&self) -> f64 {
         match self.rise > 0.0 {
@@ -88,12 +88,12 @@ impl Ramp {
         }
     }
 
-    /// How far from its slow end it has a speed that is one of its own.
+    /// Returns the distance from its slow end at which it has a given speed of its range.
     #[must_use]
     pub fn reaches(&self, speed: f64) -> f64 {
         let bend = self.peak * self.rise / 2.0;
         let (above, below) = ((speed - self.low).max(0.0), (self.high - speed).max(0.0));
-        // Whole lengths of the bends: those of their speeds, and a third of what comes to them.
+        // Full lengths of the bends: of their speeds, plus a third of the increase.
         if above < bend {
             let time = (2.0 * above / self.jerk()).sqrt();
             return (self.low + above / 3.0) * time;

@@ -1,24 +1,23 @@
-//! A path as segments: what the segment store and the search are filled with.
+//! Segments of a path: the contents of the segment store and the search.
 //!
 //! | word | line | arc | spline |
 //! |---|---|---|---|
 //! | 0 | 0 | bit 0 set, bits 6..1 H − n | bit 7 set, bits 6..1 n |
 //! | 1 | 0 | 2^(M + n − 4) / turn, of M bits | 0 |
-//! | 2 | 0 | radius / gain of CORDIC, with R − P bits behind the guard unit | 0 |
-//! | 3, 4, 5 | where it begins | the centre | where it begins |
-//! | 6, 7, 8 | way / length | direction to where it begins | direction where it begins |
-//! | 9, 10, 11 | 0 | direction a quarter turn on | that of the length's square, times 2^n |
+//! | 2 | 0 | radius / gain of CORDIC, with R − P bits below the guard unit | 0 |
+//! | 3, 4, 5 | start | centre | start |
+//! | 6, 7, 8 | way / length | direction to the start | direction at the start |
+//! | 9, 10, 11 | 0 | direction a quarter turn on | coefficient of the length's square, times 2^n |
 //! | 12 | 0 | as word 2, the radius widened for constant speed | 0 |
-//! | 13, 14, 15 | not looked at | not looked at | that of its cube, times 2^2n |
+//! | 13, 14, 15 | not read | not read | coefficient of its cube, times 2^2n |
 //!
-//! A fourth axis has four words more, base and coefficients as those of x: 16 and, of a line, 17, of
-//! an arc 19, which then has bit 7 of word 0 set as a helix has. A spline's length has n bits. A helix
-//! has the words of an arc with bit 7 of word 0 set, and in words 13 to 15 its rise over its length.
-//! Lengths are whole guard units of 2^-G count. A piece's
-//! own length is rounded, and what the rounding takes is spread over the piece: a line's
-//! coefficients are its way divided by the rounded length, an arc's angle at the rounded length is
-//! the arc's own. So each ends where the piece ends. The speed is off by as little: half a guard
-//! unit in the length of the piece.
+//! A fourth axis has four more words, base and coefficients like those of x: 16 and, for a line,
+//! 17, for an arc 19, which then has bit 7 of word 0 set like a helix. A spline's length has n
+//! bits. A helix has the words of an arc with bit 7 of word 0 set, and in words 13 to 15 its rise
+//! over its length. Lengths are whole guard units of 2^-G count. A piece's own length is rounded,
+//! and the rounding is spread over the piece: a line's coefficients are its way divided by the
+//! rounded length, an arc's angle at the rounded length is the arc's own. So each ends where the
+//! piece ends. The speed error is as small: half a guard unit in the length of the piece.
 
 use super::extent::{fits, hold, margin};
 use super::fourth::beside;
@@ -38,42 +37,42 @@ use crate::path::pieces::{Course, Piece};
 use crate::path::vector::{self, add, cross, dot, scale, sub};
 use std::f64::consts::TAU;
 
-/// What a length within a segment becomes a point by. All in guard units.
+/// Coefficients that convert a length within a segment to a point, in guard units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
-    /// Where a line begins; the centre of an arc.
+    /// Start of a line; centre of an arc.
     pub base: [i64; COORDINATES],
-    /// A line's way in a guard unit of its length; of an arc the direction from the centre to where
-    /// it begins.
+    /// Way of a line per guard unit of its length; for an arc the direction from the centre to its
+    /// start.
     pub along: Point,
-    /// Of an arc the direction of its motion where it begins; of a spline the part of the length's
+    /// Direction of an arc's motion at its start; for a spline the coefficient of the length's
     /// square over 2^n.
     pub across: Point,
-    /// Of a helix its rise in a guard unit of its length; of a spline the part of the length's cube
-    /// over 2^2n.
+    /// Rise of a helix per guard unit of its length; for a spline the coefficient of the length's
+    /// cube over 2^2n.
     pub third: Point,
-    /// What an arc or a helix has besides.
+    /// Additional values of an arc or a helix.
     pub arc: Option<Arc>,
-    /// n of a spline: its length is below 2^n, and not below 2^(n − 1).
+    /// Exponent n of a spline: its length is below 2^n, and not below 2^(n − 1).
     pub powers: Option<u32>,
-    /// What it has of a fourth axis.
+    /// Fourth axis.
     pub fourth: Option<Fourth>,
 }
 
-/// An arc, in guard units.
+/// Arc in guard units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arc {
-    /// r.
+    /// Radius r.
     pub radius: f64,
-    /// Length of a whole turn: 2πr, but for the rounding of the length.
+    /// Length of a whole turn: 2πr, except for rounding of the length.
     pub turn: f64,
-    /// The radius of the command whose response has radius r at constant speed (¶0004); r before
+    /// Radius of the command whose response has radius r at constant speed (¶0004); r before
     /// [`Path::widen`].
     pub widened: f64,
 }
 
 impl Segment {
-    /// A line, by where it begins and its way in a guard unit of its length.
+    /// Creates a line from its start and its way per guard unit of its length.
     pub(super) fn line(base: Point, along: Point) -> Self {
         Segment {
             base: base.map(|units| units as i64),
@@ -86,7 +85,7 @@ impl Segment {
         }
     }
 
-    /// Its words, each below 2^D. A turn is 1 or longer.
+    /// Returns its words, each below 2^D. A turn must be at least 1.
     #[must_use]
     pub fn words(&self, widths: &Widths) -> [u64; WORDS] {
         let word = |value: i64| value as u64 & ((1 << widths.data) - 1);
@@ -117,13 +116,13 @@ impl Segment {
         words
     }
 
-    /// The point at a length behind its beginning with W, unrounded.
+    /// Returns the point at a length after its start, including W, unrounded.
     pub(super) fn place(&self, offset: f64) -> [f64; AXES] {
         let [x, y, z] = self.point(offset);
         [x, y, z, self.fourth_point(offset)]
     }
 
-    /// What it is called.
+    /// Returns the name of its kind.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match (self.arc, self.powers) {
@@ -134,7 +133,7 @@ impl Segment {
         }
     }
 
-    /// Whether both are arcs of one circle, run the same way.
+    /// True if both are arcs of one circle in the same direction.
     #[must_use]
     pub(super) fn same_circle(&self, other: &Segment) -> bool {
         let near = |off: f64| off < 1e-6;
@@ -150,7 +149,7 @@ impl Segment {
         }
     }
 
-    /// The point at a length behind its beginning, unrounded.
+    /// Returns the point at a length after its start, unrounded.
     #[must_use]
     pub fn point(&self, offset: f64) -> Point {
         let [along, across, third] = match (self.arc, self.powers) {
@@ -170,31 +169,31 @@ impl Segment {
     }
 }
 
-/// A segment where it is on the path.
+/// Segment with its position on the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stretch {
-    /// Its points.
+    /// Coefficients.
     pub segment: Segment,
-    /// The length at which it begins, in guard units.
+    /// Length at which it begins, in guard units.
     pub begin: u64,
-    /// Its length in guard units, 1 or more.
+    /// Its length in guard units, at least 1.
     pub length: u64,
-    /// Direction of motion at its start and at its end: of length 1 together with a fourth axis.
+    /// Directions of motion at start and end: of length 1 together with a fourth axis.
     pub directions: [Point; 2],
-    /// The speed that is wanted, in mm/s.
+    /// Requested speed in mm/s.
     pub speed: f64,
-    /// Radius of curvature of an arc or a helix in mm; of a spline the least, where it is bent.
+    /// Radius of curvature of an arc or a helix in mm; for a bent spline the least one.
     pub radius: Option<f64>,
-    /// c·v² of a spline in the square of guard units, by which [`Path::widen`] widens it.
+    /// Widening c·v² of a spline in squared guard units, applied by [`Path::widen`].
     pub wider: f64,
-    /// The piece it comes from.
+    /// Index of its piece.
     pub piece: usize,
-    /// Line of the input that stands in.
+    /// Line of the piece in the input.
     pub line: Option<usize>,
 }
 
 impl Stretch {
-    /// The segment whose words a controller with this correction is given.
+    /// Returns the segment whose words a controller with this correction needs.
     pub(super) fn segment_for(&self, correction: Correction) -> Segment {
         match correction {
             Correction::Steady => self.segment.widened(self.wider),
@@ -203,24 +202,24 @@ impl Stretch {
     }
 }
 
-/// A path by its length.
+/// Path by its length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
-    /// One after the other; never empty.
+    /// Segments in order; never empty.
     pub stretches: Vec<Stretch>,
-    /// L in guard units.
+    /// Length L in guard units.
     pub length: u64,
-    /// Pieces that begin and end at the same guard unit: they have no segment.
+    /// Number of pieces that begin and end at the same guard unit and have no segment.
     pub zero_length: usize,
 }
 
 impl Path {
-    /// The segments of pieces from `start` on, at so many counts per millimetre.
+    /// Returns the segments of pieces from `start` on, with `counts_per_mm`.
     ///
     /// # Errors
-    /// A piece without numbers or speed, or off the path; a coordinate, centre, radius or length
-    /// that does not fit, with the W that it needs; more segments than the memory holds, with the A
-    /// that they need; no piece with a length.
+    /// Returns an error for a piece without numbers or speed, or off the path; a coordinate,
+    /// centre, radius or length that does not fit, with the W needed; more segments than the
+    /// memory holds, with the A needed; no piece with a length.
     pub fn of(
         start: Point,
         pieces: &[Piece],
@@ -230,11 +229,12 @@ impl Path {
         Self::with_fourth(start, pieces, None, counts_per_mm, widths)
     }
 
-    /// The same with a fourth axis, which goes linearly with the length within each piece. Its way is
-    /// part of the length, and of the speed, as those of the others are.
+    /// Returns the segments with a fourth axis, which is linear with the length within each piece.
+    /// Its motion is part of the length and of the speed, like that of the other axes.
     ///
     /// # Errors
-    /// As [`Path::of`]; W is no number or does not fit, or moves along a spline.
+    /// Returns the errors of [`Path::of`], and an error if W is not a number, does not fit, or
+    /// moves along a spline.
     pub fn with_fourth(
         start: Point,
         pieces: &[Piece],
@@ -311,15 +311,16 @@ impl Path {
         })
     }
 
-    /// Widens each arc and each spline by c·v²/r, v being the speed on its span and r its radius of
-    /// curvature at every point; to twice the radius at most, where the series that this is the first
-    /// of is long worthless, and half of it at least. Of a spline the least radius limits it.
+    /// Widens each arc and each spline by c·v²/r, with the speed v of its span and the radius of
+    /// curvature r at every point. This is the first term of a series. The widening is limited to
+    /// radii between half and twice the original, beyond which the series is useless; for a spline
+    /// the least radius limits it.
     pub fn widen(&mut self, spans: &[Span], c: f64) {
         for (stretch, span) in self.stretches.iter_mut().zip(spans) {
             let by = c * span.speed * span.speed;
             stretch.wider = stretch.segment.most_wider(stretch.length as f64, by);
             if let Some(arc) = &mut stretch.segment.arc {
-                // Of the speed of a helix a part goes up, and one to a fourth axis.
+                // Part of a helix's speed is along its axis, and part belongs to a fourth axis.
                 let beside = stretch.segment.fourth.map_or(0.0, |fourth| fourth.along);
                 let third = stretch.segment.third;
                 let flat = 1.0 - dot(third, third) - beside * beside;
@@ -329,23 +330,23 @@ impl Path {
         }
     }
 
-    /// The segment that a length belongs to: the last that begins at or before it.
+    /// Returns the segment of a length: the last that begins at or before it.
     #[must_use]
     pub fn index(&self, length: f64) -> usize {
         let after = |stretch: &Stretch| stretch.begin as f64 <= length;
         self.stretches.partition_point(after).saturating_sub(1)
     }
 
-    /// Equations (1), (5): the exact point at a length, in guard units; before the start and behind
-    /// the end, the start and the end.
+    /// Returns the exact point at a length, in guard units (equations (1), (5)); the start before
+    /// it, and the end after it.
     #[must_use]
     pub fn point(&self, length: f64) -> Point {
         let [x, y, z, _] = self.place(length);
         [x, y, z]
     }
 
-    /// The point that a controller looks up for its command, with W: that of the path, but on splines
-    /// with the steady correction, which is in their words.
+    /// Returns the point, including W, that a controller looks up for its command: the path's,
+    /// except for splines with the steady correction, which is in their words.
     #[must_use]
     pub fn looked_up(&self, length: f64, correction: Correction) -> [f64; AXES] {
         let length = length.clamp(0.0, self.length as f64);
@@ -354,7 +355,7 @@ impl Path {
         segment.place(length - stretch.begin as f64)
     }
 
-    /// The same with W; 0 where there is none.
+    /// Returns the exact point at a length, including W; 0 if there is none.
     #[must_use]
     pub fn place(&self, length: f64) -> [f64; AXES] {
         let length = length.clamp(0.0, self.length as f64);
@@ -363,8 +364,8 @@ impl Path {
     }
 }
 
-/// The segments of a piece, with so many guard units a millimetre and a count; none where it has no
-/// length. Where they begin is not in them.
+/// Returns the segments of a piece, for given guard units per millimetre and per count; empty if
+/// it has no length. Their start lengths are not set.
 fn made(from: Point, piece: &Piece, index: usize, [unit, count]: [f64; 2]) -> Vec<Stretch> {
     let units = |point: Point| point.map(|mm| (mm * unit).round());
     let (segment, length, radius) = match &piece.course {

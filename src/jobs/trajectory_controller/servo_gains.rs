@@ -1,4 +1,4 @@
-//! The gains of a servo control as words, from what its axis is made of.
+//! Gains of a servo control as words, from the parameters of its axis.
 
 use super::settings::Settings;
 use crate::circuits::trajectory_controller::Widths;
@@ -7,39 +7,39 @@ use crate::settings::{Place, SettingError, within};
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
-/// Gains and bandwidths that are accepted, in 1/s and Hz.
+/// Allowed gains and bandwidths in 1/s and Hz.
 pub const RATE_RANGE: RangeInclusive<f64> = 1e-6..=1e9;
 
-/// Integral times that are accepted, in ms; 0 for no integral.
+/// Allowed integral times in ms; 0 for no integral.
 pub const INTEGRAL_RANGE_MS: RangeInclusive<f64> = 0.0..=1e9;
 
-/// Parts of the inertia that the feed-forward may be told.
+/// Allowed factors of the inertia in the feed-forward.
 pub const INERTIA_FACTOR_RANGE: RangeInclusive<f64> = 0.0..=100.0;
 
 /// Words of servo control 11 of one axis.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct ServoGains {
-    /// Of the position control 27: parts of 2^-(G - 1) a period.
+    /// Gain of position control 27: parts of 2^-(G - 1) per period.
     pub position: u64,
-    /// Of the speed control 29: torque for a guard unit a period.
+    /// Gain of speed control 29: torque per guard unit per period.
     pub speed: u64,
-    /// Its integral, likewise, a period.
+    /// Integral gain of speed control 29: torque per guard unit per period, per period.
     pub integral: u64,
-    /// Of the feed-forward 30: torque for a guard unit a period squared.
+    /// Gain of feed-forward 30: torque per guard unit per period squared.
     pub inertia: u64,
-    /// Largest torque.
+    /// Greatest torque.
     pub limit: u64,
 }
 
 impl ServoGains {
-    /// The gains for an axis by its number, whose own faults are those of that row `axis`.
+    /// Returns the gains for an axis by its index; faults of the axis name the row `axis`.
     ///
-    /// With J = J_motor + J_load the speed control has Kp = J·2πf and an integral of Kp/Ti, and the
-    /// feed-forward has the part of J that it is told.
+    /// With J = J_motor + J_load the speed control has Kp = J·2πf and an integral of Kp/Ti, and
+    /// the feed-forward uses the configured factor of J.
     ///
     /// # Errors
-    /// A setting or a parameter of the axis that is out of range, or makes a gain that is no word;
-    /// an axis that is too fast for the clock.
+    /// Returns an error for a setting or a parameter of the axis that is out of range or gives a
+    /// gain that does not fit its word, and for an axis that is too fast for the clock.
     pub fn of(
         settings: &Settings,
         index: usize,
@@ -67,7 +67,7 @@ impl ServoGains {
         let inertia = axis.motor_inertia_kg_m2 + axis.load_inertia_kg_m2;
         let full_scale = TwoMassAxis::FULL_SCALE as f64;
         let units_per_rad = axis.counts_per_rad() * (widths.guard() as f64).exp2();
-        // Torque word for 1 N·m, of an angle in guard units.
+        // Torque word per 1 N·m and per guard unit of angle.
         let torque = full_scale / axis.max_torque_nm / units_per_rad;
         let fine = (widths.torque_fraction() as f64).exp2();
         let speed = inertia * TAU * hz * torque / period * fine;
@@ -81,7 +81,7 @@ impl ServoGains {
             if exact >= 0.5 && exact.round() <= most as f64 {
                 return Ok(exact.round() as u64);
             }
-            // The values that make the least and the greatest word, a thousandth inside.
+            // Values of the least and the greatest word, a thousandth inside.
             let ends = match grows {
                 true => [value / exact, value / exact * most as f64],
                 false => [value * exact / most as f64, value * exact],
@@ -112,7 +112,7 @@ impl ServoGains {
     }
 }
 
-/// Four digits of a number.
+/// Rounds a number to four digits.
 fn short(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }

@@ -1,4 +1,4 @@
-//! How fast the path may be run where, and the lowest limit between two lengths at once.
+//! Speed limits along the path, with fast queries of the least limit between two lengths.
 
 use super::axis_limits;
 use super::segments::{Path, Stretch};
@@ -6,23 +6,23 @@ use super::settings::Motion;
 use crate::path::vector::distance;
 use crate::plan::junction;
 
-/// Two lines are chords of a curve where their directions, of length 1, are no further apart: 10°.
+/// Greatest difference of unit directions for which two lines count as chords of a curve: 10°.
 const CHORD_TURN: f64 = 0.1743;
 
-/// A segment for the planner. Units of length and time are the caller's.
+/// Segment for the planner. Units of length and time are the caller's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
-    /// Its length, 1 or more.
+    /// Length, at least 1.
     pub length: u64,
-    /// The highest speed on it, above 0.
+    /// Greatest speed on it, above 0.
     pub speed: f64,
-    /// The highest speed where it begins; 0 for a stop.
+    /// Greatest speed at its start; 0 for a stop.
     pub entry: f64,
 }
 
-/// The spans of a path, in guard units and seconds: feed or rapid, √(a·r) in curves, with the
-/// acceleration that the path, its axes and the contour tolerance allow, and where two meet, the speed
-/// at which the velocity changes by the corner speed.
+/// Returns the spans of a path, in guard units and seconds. Limits are feed or rapid, √(a·r) in
+/// curves, with the acceleration that the path, its axes and the contour tolerance allow, and at
+/// joints the speed at which the velocity changes by the corner speed.
 #[must_use]
 pub fn spans(path: &Path, motion: &Motion) -> Vec<Span> {
     let unit = motion.units_per_mm;
@@ -53,14 +53,15 @@ pub fn spans(path: &Path, motion: &Motion) -> Vec<Span> {
     spans.collect()
 }
 
-/// How far the directions of two segments are apart where they meet: an angle where it is small.
+/// Returns the difference of two segments' directions at their joint: an angle if it is small.
 fn turn(before: &Stretch, next: &Stretch) -> f64 {
     let [beside, along] =
         [before, next].map(|of| of.segment.fourth.map_or(0.0, |fourth| fourth.along));
     distance(before.directions[1], next.directions[0]).hypot(along - beside)
 }
 
-/// Radius of the curve that two lines are chords of, in guard units; infinite where they are none.
+/// Returns the radius of the curve of which two lines are chords, in guard units; infinite if they
+/// are not.
 fn chord_radius(before: &Stretch, next: &Stretch) -> f64 {
     let (turn, mean) = (
         turn(before, next),
@@ -76,13 +77,13 @@ fn chord_radius(before: &Stretch, next: &Stretch) -> f64 {
 /// Limits by the length along the path.
 #[derive(Debug)]
 pub(super) struct SpeedLimits {
-    /// Where the spans begin, and where the last one ends.
+    /// Starts of the spans, and the end of the last one.
     pub(super) joints: Vec<f64>,
-    /// Limit at each joint: never above those of the spans at it, 0 at both ends.
+    /// Limit at each joint: never above those of the adjacent spans, 0 at both ends.
     pub(super) at_joint: Vec<f64>,
     /// Limit on each span.
     pub(super) on_span: Vec<f64>,
-    /// Row k: the joint with the lowest limit of 2^k from each.
+    /// Row k: the joint with the least limit among 2^k from each.
     lowest: Vec<Vec<u32>>,
 }
 
@@ -119,17 +120,17 @@ impl SpeedLimits {
         }
     }
 
-    /// The first joint at or behind a length.
+    /// Returns the first joint at or after a length.
     pub(super) fn joint_from(&self, length: f64) -> usize {
         self.joints.partition_point(|&joint| joint < length)
     }
 
-    /// The first joint behind a length.
+    /// Returns the first joint after a length.
     pub(super) fn joint_behind(&self, length: f64) -> usize {
         self.joints.partition_point(|&joint| joint <= length)
     }
 
-    /// The first of the joints `from` to before `to` with the lowest limit.
+    /// Returns the joint with the least limit from `from` to before `to`; the first of several.
     pub(super) fn lowest(&self, from: usize, to: usize) -> Option<usize> {
         let row = (to.checked_sub(from)?).checked_ilog2()?;
         let row = (&self.lowest[row as usize], to - (1 << row));
@@ -141,8 +142,8 @@ impl SpeedLimits {
     }
 }
 
-/// A speed without its last digits, so that those of equal turns are equal: less by no more than a
-/// millionth.
+/// Clears the last digits of a speed, so that those of equal turns are equal: at most a millionth
+/// less.
 fn coarse(speed: f64) -> f64 {
     f64::from_bits(speed.to_bits() >> 32 << 32)
 }

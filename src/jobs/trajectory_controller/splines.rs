@@ -1,31 +1,32 @@
-//! A spline as segments: cubics of the length, short enough to be the spline.
+//! Conversion of a spline to segments: cubics of the length that are short enough to approximate
+//! it.
 //!
-//! A cubic curve has a parameter that is not its length. Between two of its points that are near
-//! enough the cubic *of the length* with the same ends and the same directions there is the same
-//! curve but for a fourth power of the length between them: at a radius r by l⁴/384r³. So a curve is
-//! halved until no part is off by more than [`DEVIATION_COUNTS`], and none runs faster or slower by
-//! more than [`SPEED`], at places that are known from the curve's length by quadrature. Neighbours
-//! meet with one direction; curvature meets but for (l/r)²/12 of it.
+//! The parameter of a cubic curve is not its length. Between two points that are close enough, the
+//! cubic *of the length* with the same ends and directions is the same curve except for a fourth
+//! power of the length l between them: l⁴/384r³ at a radius r. So a curve is halved until no part
+//! deviates by more than [`DEVIATION_COUNTS`], and none is faster or slower by more than
+//! [`SPEED`], at points whose lengths are known by quadrature. Neighbours meet with the same
+//! direction; their curvatures differ by a part (l/r)²/12.
 
 use super::segments::{Segment, Stretch};
 use crate::input::Point;
 use crate::path::cubic::Cubic;
 use crate::path::vector::{add, distance, dot, norm, scale, sub, unit};
 
-/// How far a segment may be off its spline, in counts, where the length along it is the same.
+/// Greatest deviation of a segment from its spline in counts, at equal length.
 pub const DEVIATION_COUNTS: f64 = 0.01;
 
-/// Cosine of the most that a segment turns.
+/// Cosine of the greatest angle that a segment turns.
 const TURN: f64 = 0.9;
 
-/// How far the speed on a segment may be off, as a part; the ends' rounding comes to it.
+/// Greatest relative speed error on a segment; rounding of the ends adds to it.
 pub const SPEED: f64 = 1e-3;
 
-/// The largest coefficient: a word's is below 2.
+/// Greatest coefficient: that of a word is below 2.
 const LARGEST: f64 = 1.9;
 
-/// The segments of a curve, with so many guard units a millimetre and a count, each with its own
-/// place in `stretch` but for where it begins.
+/// Returns the segments of a curve, for given guard units per millimetre and per count, each with
+/// the values of `stretch` except for its start.
 pub(super) fn stretches(cubic: &Cubic, unit: f64, count: f64, stretch: Stretch) -> Vec<Stretch> {
     let mut made = Vec::new();
     let mut parts = vec![[0.0, 1.0]];
@@ -48,13 +49,13 @@ pub(super) fn stretches(cubic: &Cubic, unit: f64, count: f64, stretch: Stretch) 
     made
 }
 
-/// What becomes of a part of a curve.
+/// Result for a part of a curve.
 enum Part {
-    /// It is shorter than half a guard unit.
+    /// Part shorter than half a guard unit.
     Nothing,
-    /// A segment, its length, and its directions at both ends.
+    /// Segment, its length, and its directions at both ends.
     Whole(Box<Segment>, u64, [Point; 2]),
-    /// It is halved.
+    /// Part that must be halved.
     Halves,
 }
 
@@ -69,7 +70,7 @@ fn part(cubic: &Cubic, [from, to]: [f64; 2], unit_per_mm: f64, deviation: f64) -
     let way = scale(sub(ends[1], ends[0]), 1.0 / length);
     let directions @ [first, last] = [cubic.direction(from, false), cubic.direction(to, true)];
     if lengths[3] <= deviation {
-        // Shorter than what it may be off: a corner of the curve, or next to one.
+        // Shorter than the allowed deviation: a corner of the curve, or next to one.
         let straight = Segment::line(ends[0], way);
         let directions = match norm(way) > 0.0 {
             true => [unit(way); 2],
@@ -102,8 +103,8 @@ fn part(cubic: &Cubic, [from, to]: [f64; 2], unit_per_mm: f64, deviation: f64) -
 }
 
 impl Segment {
-    /// The spline whose points are `by` times the second derivative further out: by/r along the normal,
-    /// r being the radius of curvature there. It is a cubic of the same length.
+    /// Returns the spline whose points are moved outwards by `by` times the second derivative:
+    /// by/r along the normal, with the radius of curvature r. It is a cubic of the same length.
     pub(super) fn widened(&self, by: f64) -> Segment {
         let Some(bits) = self.powers else {
             return *self;
@@ -119,8 +120,9 @@ impl Segment {
         }
     }
 
-    /// How much of `by` a spline of this length may be [widened](Self::widened) by: to twice its least
-    /// radius and half of it, with coefficients that are words; 0 of what is none.
+    /// Returns the part of `by` by which a spline of this length may be [widened](Self::widened):
+    /// to between half and twice its least radius, with coefficients that fit their words; 0 if it
+    /// is not a spline.
     pub(super) fn most_wider(&self, length: f64, by: f64) -> f64 {
         let (Some(bits), Some(radius)) = (self.powers, self.least_radius(length)) else {
             return 0.0;
@@ -135,7 +137,7 @@ impl Segment {
             .clamp(-word, word)
     }
 
-    /// First and second derivative by the length, at a length on a spline of so many bits.
+    /// Returns first and second derivative by the length, at a length on a spline of `bits` bits.
     pub(super) fn derivatives(&self, bits: u32, offset: f64) -> [Point; 2] {
         let longest = f64::from(bits).exp2();
         let part = offset / longest;
@@ -149,8 +151,8 @@ impl Segment {
         ]
     }
 
-    /// The least radius of curvature of a spline of this length, in guard units: the second
-    /// derivative goes straight from that at one end to that at the other. None where there is none.
+    /// Returns the least radius of curvature of a spline of this length, in guard units: the
+    /// second derivative is linear between the ends. Returns `None` for a straight spline.
     fn least_radius(&self, length: f64) -> Option<f64> {
         let bits = self.powers?;
         let most = [0.0, length].map(|at| norm(self.derivatives(bits, at)[1]));

@@ -1,4 +1,4 @@
-//! Where both machines ended.
+//! End positions of both machines.
 
 use crate::circuits::trajectory_controller::Widths;
 use crate::input::Drawing;
@@ -6,29 +6,30 @@ use crate::jobs::machine::job::{Frame, Played};
 use crate::jobs::machine::program::Program;
 use crate::jobs::machine::settings::{Correction, Settings};
 
-/// Where both machines ended.
+/// End positions of both machines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ends {
-    /// The job's end in mm.
+    /// End of the job in mm.
     pub wanted_mm: [f64; 2],
-    /// The steppers, in mm.
+    /// Position of the steppers in mm.
     pub stepper_mm: [f64; 2],
-    /// The position commands of the servos, in mm.
+    /// Position commands of the servos in mm.
     pub command_mm: [f64; 2],
-    /// Their motors, in mm.
+    /// Position of their motors in mm.
     pub motor_mm: [f64; 2],
-    /// The steppers in steps, from where the machine's zero is; and the step nearest to the end.
+    /// Position of the steppers in steps, from the machine's zero; and the step nearest to the
+    /// end.
     pub stepper_steps: [[i64; 2]; 2],
-    /// The commands in counts; and the count nearest to the end.
+    /// Commands in counts; and the count nearest to the end.
     pub command_counts: [[i64; 2]; 2],
-    /// The motors in counts.
+    /// Position of the motors in counts.
     pub motor_counts: [i64; 2],
-    /// Counts by which the corrected command ends beside the job's end.
+    /// Distance of the corrected command's end from the job's end, in counts.
     pub left_counts: [i64; 2],
-    /// The motors are where the corrected command ends.
+    /// True if the motors are at the end of the corrected command.
     pub motor_at_rest: bool,
-    /// Everything is on the step or count that is nearest to the job's end, the motors beside it by
-    /// what the correction leaves.
+    /// True if everything is on the step or count nearest to the job's end, apart from the
+    /// deviation of the motors that the correction leaves.
     pub exact: bool,
 }
 
@@ -74,8 +75,8 @@ impl Ends {
     }
 }
 
-/// Counts by which the corrected command stands beside a place. Only the steady correction ends
-/// beside the command.
+/// Returns the distance of the corrected command from a position, in counts. Only the steady
+/// correction ends beside the command.
 pub(super) fn left_counts(settings: &Settings, frame: &Frame, place: [i64; 2]) -> [i64; 2] {
     let count = (1u64 << Widths::FULL.guard()) as f64;
     match settings.correction {
@@ -85,8 +86,8 @@ pub(super) fn left_counts(settings: &Settings, frame: &Frame, place: [i64; 2]) -
     }
 }
 
-/// True if the motors are where the corrected command ends. That of the steady correction ends
-/// between counts.
+/// True if the motors are at the end of the corrected command, which is between counts for the
+/// steady correction.
 fn at_rest(settings: &Settings, wanted: [i64; 2], left: [i64; 2], motor: [i64; 2]) -> bool {
     let most = u64::from(settings.correction == Correction::Steady);
     (0..2).all(|axis| motor[axis].abs_diff(wanted[axis] + left[axis]) <= most)

@@ -1,4 +1,4 @@
-//! Measures of a run that are folded while it goes on.
+//! Measurement of a run while it goes on.
 
 use super::ends::{Ends, left_counts};
 use super::servos::OnPiece;
@@ -10,16 +10,16 @@ use crate::jobs::machine::program::Program;
 use crate::jobs::machine::settings::Settings;
 use crate::plan::Plan;
 
-/// A point of a run for its picture.
+/// Point of a run for its picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shown {
-    /// The steppers at the end of a unit time.
+    /// Steppers at the end of a unit time.
     Steppers(Beside),
-    /// The loads at a sampling time of a move.
+    /// Loads at a sampling time of a move.
     Loads(Beside),
 }
 
-/// Measures a run event by event; keeps no record of it.
+/// Measurement of a run event by event, without a record of it.
 pub struct Measuring<'a> {
     drawing: &'a Drawing,
     program: &'a Program,
@@ -27,7 +27,7 @@ pub struct Measuring<'a> {
     path: Path<'a>,
     units: Units<'a>,
     pieces: Vec<PieceMeasured>,
-    /// Moves that have begun.
+    /// Number of moves that have begun.
     moves: usize,
     under_way: Option<OnPiece>,
     latest: Option<Frame>,
@@ -35,7 +35,7 @@ pub struct Measuring<'a> {
 }
 
 impl<'a> Measuring<'a> {
-    /// Nothing measured yet of a program, whose drawing `plan` is of.
+    /// Creates an empty measurement of a program; `plan` belongs to its drawing.
     #[must_use]
     pub fn new(
         drawing: &'a Drawing,
@@ -67,7 +67,7 @@ impl<'a> Measuring<'a> {
         }
     }
 
-    /// Takes the next event; gives `show` the points that belong to it.
+    /// Adds the next event; passes its points to `show`.
     pub fn take(&mut self, event: Event, show: &mut dyn FnMut(Shown)) {
         match event {
             Event::Frame(frame) => {
@@ -99,7 +99,7 @@ impl<'a> Measuring<'a> {
         }
     }
 
-    /// The move under way is over, or was not when the run ended.
+    /// Ends the current move, or finishes it at the end of the run.
     fn end(&mut self, ended: Option<u64>) {
         let Some((on, step)) = self
             .under_way
@@ -122,7 +122,7 @@ impl<'a> Measuring<'a> {
         self.pieces[step.piece].servos = on.finish(&self.path, begun..=ended, left);
     }
 
-    /// The measures of the run.
+    /// Returns the measures of the run.
     #[must_use]
     pub fn finish(mut self, played: &Played) -> Measured {
         self.end(None);

@@ -1,4 +1,4 @@
-//! The servos beside the path.
+//! Deviation of the servos from the path.
 
 use super::{Beside, Farthest, Path, Reason, Servos, farthest};
 use crate::circuits::trajectory_controller::Widths;
@@ -11,16 +11,16 @@ use std::array::from_fn;
 use std::collections::VecDeque;
 use std::ops::RangeInclusive;
 
-/// Guard units of a count.
+/// Guard units per count.
 const COUNT: f64 = (1u64 << Widths::FULL.guard()) as f64;
-/// By how many counts rounding alone puts a command beside the path: half a one of each axis,
-/// and another half for the remainder that the linear interpolator carries.
+/// Greatest deviation of a command in counts by rounding alone: half a count in each axis, and
+/// another half for the remainder that the linear interpolator carries.
 const ROUNDING_COUNTS: f64 = 1.5;
-/// Sampling times before and behind the farthest load in which model and command of its place are
-/// looked for.
+/// Number of sampling times before and after the greatest deviation in which model and command at
+/// the same place are searched.
 const AROUND: u64 = 16_384;
 
-/// Positions of the servos in mm.
+/// Conversion of the servos' positions to mm.
 pub(super) struct Servo {
     origin: [f64; 2],
     height: f64,
@@ -58,7 +58,8 @@ impl Servo {
         self.point(frame.load)
     }
 
-    /// Why the loads were farthest from a piece at `worst`, by the frames around.
+    /// Returns the greatest deviation of the loads from a piece, which is in `worst`, with its
+    /// reason from the frames around.
     fn farthest(
         &self,
         path: &Path<'_>,
@@ -67,7 +68,7 @@ impl Servo {
         frames: &VecDeque<(u64, Frame)>,
     ) -> Option<Farthest> {
         let off = |point: Point| path.off(piece, point);
-        // What a motor owes its place to are model and command of the same place, not time.
+        // A motor's position is compared with model and command at the same place, not time.
         let near = |place: Point, of: fn(&Self, &Frame) -> Point| {
             let from = |frame: &Frame| distance(of(self, frame), place);
             let all = frames.iter().map(|(_, frame)| frame);
@@ -94,23 +95,23 @@ impl Servo {
     }
 }
 
-/// The servos on a piece while they are at it.
+/// Measurement of the servos on their current piece.
 pub(super) struct OnPiece {
     servo: Servo,
     piece: usize,
     pub(super) begun: u64,
-    /// The last tick in which the commands were on the way.
+    /// Last tick in which the commands moved.
     pub(super) stood: u64,
     first: Option<Frame>,
     pub(super) last: Option<Frame>,
-    /// Largest distances of command, model and motor, in mm.
+    /// Greatest distances of command, model and motor, in mm.
     largest: [f64; 3],
     count: u64,
-    /// Number and frame of the farthest load, and its distance in mm.
+    /// Number and frame of the greatest deviation of the loads, and its distance in mm.
     worst: Option<(u64, Frame, f64)>,
-    /// Reason of the farthest load, once all frames around it are there.
+    /// Greatest deviation of the loads with its reason, once all frames around it are known.
     found: Option<Farthest>,
-    /// Frames around the farthest load, or the latest, each with its number.
+    /// Frames around the greatest deviation, or the latest ones, each with its number.
     frames: VecDeque<(u64, Frame)>,
 }
 
@@ -119,7 +120,7 @@ impl OnPiece {
         Self::unseen(Servo::new(drawing, settings), piece, begun)
     }
 
-    /// Measures of a piece of which no frame has come.
+    /// Creates a measurement of a piece without frames.
     fn unseen(servo: Servo, piece: usize, begun: u64) -> Self {
         OnPiece {
             servo,
@@ -136,7 +137,7 @@ impl OnPiece {
         }
     }
 
-    /// Takes the next frame; returns the loads beside the piece.
+    /// Adds the next frame; returns the loads beside the piece.
     pub(super) fn take(&mut self, path: &Path<'_>, frame: Frame) -> Beside {
         let (servo, number) = (&self.servo, self.count);
         let mm = |point: Point| distance(path.off(self.piece, point), [0.0; 3]);
@@ -189,7 +190,7 @@ impl OnPiece {
         }
     }
 
-    /// State at the tick in which it began, for a piece whose end is not reached.
+    /// Returns the state at the tick in which it began, for a piece whose end is not reached.
     pub(super) fn at_begin(self, path: &Path<'_>) -> Self {
         let first = self.first;
         let mut only = Self::unseen(self.servo, self.piece, self.begun);
@@ -199,7 +200,7 @@ impl OnPiece {
         only
     }
 
-    /// The measures; none without a frame.
+    /// Returns the measures; `None` without a frame.
     pub(super) fn finish(
         &self,
         path: &Path<'_>,

@@ -1,4 +1,4 @@
-//! The steppers beside the path.
+//! Deviation of the steppers from the path.
 
 use super::{Beside, Farthest, Path, PieceMeasured, Reason, Steppers, farthest};
 use crate::input::{Drawing, Point};
@@ -8,30 +8,31 @@ use crate::path::vector::{add, distance, scale, sub};
 use crate::plan::{Plan, Sampler};
 use std::array::from_fn;
 
-/// The steppers at the end of a unit time.
+/// Steppers at the end of a unit time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Unit {
     pub tick: u64,
     pub piece: usize,
-    /// Where they are.
+    /// Position.
     pub actual: Point,
-    /// Where the plan has them.
+    /// Planned position.
     planned: Point,
-    /// The step nearest to that.
+    /// Step nearest to the planned position.
     nearest: Point,
 }
 
-/// The ends of unit times, from where the steppers begin on.
+/// Ends of unit times, from the steppers' start on.
 pub(super) struct Units<'a> {
     sampler: Sampler<'a, 'a>,
     settings: &'a Settings,
     start: [i64; 2],
     height: f64,
-    /// Unit times that are taken, with the steppers' beginning.
+    /// Number of unit times so far, including the steppers' start.
     count: u64,
     first_tick: u64,
     latest: Option<Unit>,
-    /// Half-way to the latest from another piece, where it is nearer to that of the latest.
+    /// Deviation halfway from another piece, if that point is nearer to the piece of the latest
+    /// end.
     before: Option<Farthest>,
 }
 
@@ -74,7 +75,7 @@ impl<'a> Units<'a> {
         }
     }
 
-    /// Takes the end of a unit time; the first brings where the steppers begin.
+    /// Adds the end of a unit time; the first gives the steppers' start.
     pub(super) fn take(
         &mut self,
         path: &Path<'_>,
@@ -101,8 +102,8 @@ impl<'a> Units<'a> {
         if self.latest.is_none() {
             self.first_tick = tick;
         }
-        // On the way from one end of a unit time to the next; to another piece the way is that of
-        // the nearer.
+        // Moves from one end of a unit time to the next; the way to another piece belongs to the
+        // nearer one.
         let (mut reached, mut before) = (0, None);
         if let Some(latest) = self.latest {
             let (middle, own) = (latest.middle(&unit), latest.piece == unit.piece);
@@ -159,7 +160,7 @@ impl Steppers {
         }
     }
 
-    /// Takes a place if it is farther than all before.
+    /// Keeps a deviation if it is greater than all before.
     fn farther(&mut self, found: Farthest) {
         if self.farthest.is_none_or(|other| found.mm > other.mm) {
             self.farthest = Some(found);
@@ -168,7 +169,7 @@ impl Steppers {
 }
 
 impl Unit {
-    /// Half-way to the next: all axes go at constant rates in between.
+    /// Returns the point halfway to the next end: all axes have constant rates in between.
     fn middle(&self, next: &Unit) -> Unit {
         let half = |a: Point, b: Point| scale(add(a, b), 0.5);
         Unit {

@@ -1,4 +1,4 @@
-//! From a drawing to a table.
+//! Compiler from a drawing to a table.
 
 use super::count_table::{CountTable, PulseLimits, choose_half_period};
 use super::demand::{AXES, Demand, Demands};
@@ -11,22 +11,22 @@ use super::words::{MAX_UNITS, Table, Word};
 use crate::input::{COORDINATES, Drawing};
 use crate::plan::Plan;
 
-/// Compiles a drawing into the words of the interpolator's memory, and says how well it went.
+/// Compiles a drawing into the words of the interpolator's memory, with a report.
 ///
-/// The demand of a unit time is the rounded position at its end less the steps emitted so far; the
-/// unit takes the count it offers nearest to that, and the rest is carried. An axis never steps
-/// against its own motion in a unit: what it has run ahead is waited for. What is left when the
-/// path ends goes into appended units, so that the pulses always add up to the rounded end.
+/// The demand of a unit time is the rounded position at its end minus the steps emitted so far.
+/// The unit takes the nearest count that it offers, and the rest is carried. An axis never steps
+/// against its own motion in a unit: if it is ahead, it waits. The remainder at the end of the
+/// path goes into appended units, so that the pulses always add up to the rounded end.
 ///
-/// A unit has the unit time of the kind of move, line or arc, it begins in. A direction changes
-/// only with pulses, at the start of their unit; where the pulses of the unit before come too late
-/// for the driver's hold time, they are moved forward, and failing that the axis idles one unit.
-/// The direction is taken to be positive before the first unit.
+/// A unit has the unit time of the kind of move, line or arc, in which it begins. A direction
+/// changes only with pulses, at the start of their unit. If the pulses of the unit before come too
+/// late for the driver's hold time, they are moved forward; if that is impossible, the axis idles
+/// for one unit. The direction before the first unit is positive.
 ///
 /// # Errors
 ///
-/// [`TableError`] where a setting or the drawing is outside what is allowed, a position does not
-/// fit 32 bits, or the path is too long for a table.
+/// Returns a [`TableError`] if a setting or the drawing is out of range, a position does not fit
+/// 32 bits, or the path is too long for a table.
 pub fn compile(drawing: &Drawing, settings: &Settings) -> Result<(Table, Report), TableError> {
     let (table, mut report) = compile_unfollowed(drawing, settings)?;
     let plan = Plan::new(drawing, &settings.motion)?;
@@ -37,11 +37,11 @@ pub fn compile(drawing: &Drawing, settings: &Settings) -> Result<(Table, Report)
     Ok((table, report))
 }
 
-/// Does what [`compile`] does, but leaves the following errors at 0: for a table that is played, and
-/// whose run is [followed](super::follow).
+/// Compiles as [`compile`] does, but leaves the following errors at 0, for a table whose run is
+/// [followed](super::follow).
 ///
 /// # Errors
-/// Errors of [`compile`].
+/// Returns the errors of [`compile`].
 pub fn compile_unfollowed(
     drawing: &Drawing,
     settings: &Settings,
@@ -56,7 +56,8 @@ pub fn compile_unfollowed(
     Ok((table, report))
 }
 
-/// [`compile`] from valid settings, without following errors, and without looking for a remedy.
+/// Compiles as [`compile`] does from valid settings, without following errors, and without
+/// searching a remedy.
 pub(super) fn compile_plan(
     plan: &Plan<'_>,
     settings: &Settings,
@@ -90,13 +91,13 @@ pub(super) fn compile_plan(
     Ok(compiler.finish(&start, &here, path_units))
 }
 
-/// About how many unit times the path takes, were all of the shorter kind.
+/// Returns about how many unit times the path takes, if all were of the shorter kind.
 pub(super) fn units_needed(plan: &Plan<'_>, settings: &Settings) -> f64 {
     let period = settings.line_unit_ticks.min(settings.arc_unit_ticks);
     (plan.duration_s() * settings.clock_hz as f64 / f64::from(period)).ceil()
 }
 
-/// Coordinates that change though no axis drives them.
+/// Returns the coordinates that change although no axis drives them.
 fn undriven(drawing: &Drawing, axes: usize) -> Vec<&'static str> {
     (axes..COORDINATES)
         .filter(|&k| drawing.moves.iter().any(|m| m.to[k] != drawing.start[k]))
@@ -104,11 +105,11 @@ fn undriven(drawing: &Drawing, axes: usize) -> Vec<&'static str> {
         .collect()
 }
 
-/// The counts of one unit time.
+/// Counts offered by one unit time.
 struct Kind {
-    /// Where the direction stays.
+    /// Counts if the direction stays.
     counts: CountTable,
-    /// Where it changes with the unit.
+    /// Counts if the direction changes with the unit.
     turning: CountTable,
 }
 
@@ -123,7 +124,7 @@ impl Kind {
     }
 }
 
-/// One axis under way.
+/// State of one axis.
 struct Axis {
     position: i64,
     negative: bool,
@@ -131,13 +132,13 @@ struct Axis {
     report: AxisReport,
 }
 
-/// The last unit an axis had pulses in.
+/// Last unit in which an axis had pulses.
 #[derive(Clone, Copy)]
 struct LastPulses {
     unit: usize,
     period: u32,
     pulses: u32,
-    /// Setup time its first edge had to keep.
+    /// Setup time that its first edge had to keep.
     lead: u32,
 }
 
@@ -182,7 +183,8 @@ impl<'s> Compiler<'s> {
             .all(|(k, axis)| axis.position == end.rounded(k))
     }
 
-    /// One unit time, from the demand `here` to the demand `next`. Appended units never overshoot.
+    /// Compiles one unit time, from the demand `here` to the demand `next`. Appended units never
+    /// overshoot.
     fn unit(
         &mut self,
         kind: &Kind,
@@ -218,7 +220,7 @@ impl<'s> Compiler<'s> {
         Word::new(0, self.axes[k].negative)
     }
 
-    /// Steps axis `k` towards `wanted` steps from where it is, as far as this unit allows.
+    /// Steps axis `k` by `wanted` steps, as far as this unit allows.
     fn step(&mut self, k: usize, unit: usize, kind: &Kind, wanted: i64, appended: bool) -> Word {
         let axis = &self.axes[k];
         let negative = if wanted == 0 {
@@ -261,8 +263,8 @@ impl<'s> Compiler<'s> {
         Word::new(offer.half_period, negative)
     }
 
-    /// Makes the pulses of the unit before keep the hold time, for the direction to change with
-    /// `unit`; whether that is so. An idle unit between is always long enough.
+    /// Makes the pulses of the unit before keep the hold time, so that the direction can change
+    /// with `unit`; returns true if that is possible. An idle unit between is always long enough.
     fn make_room(&mut self, k: usize, unit: usize) -> bool {
         let axis = &self.axes[k];
         let Some(last) = axis.last_pulses.filter(|last| last.unit + 1 == unit) else {

@@ -1,28 +1,28 @@
-//! The counts one unit time offers within the driver's limits, each with its half-period.
+//! Pulse counts that one unit time offers within the driver's limits, each with its half-period.
 
 use crate::circuits::pulse_interpolator::counts::{attainable_counts, half_periods, recipe};
 
-/// What the pulses of one unit time must keep to, in reference ticks.
+/// Limits on the pulses of one unit time, in reference ticks.
 ///
-/// A pulse is high for a half-period, except the last, which the reset at T may cut short; low
-/// before each rising edge for at least a half-period, also across the unit's boundary.
+/// A pulse is high for a half-period, except the last, which the reset at T may cut short. It is
+/// low before each rising edge for at least a half-period, also across the unit's boundary.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PulseLimits {
-    /// Longest half-period the memory word can hold.
+    /// Greatest half-period of the memory word.
     pub max_half_period: u32,
-    /// Shortest time the step signal may be high.
+    /// Least time for which the step signal may be high.
     pub min_high: u32,
-    /// Shortest time the step signal may be low.
+    /// Least time for which the step signal may be low.
     pub min_low: u32,
     /// Earliest first rising edge, from the start of the unit time (direction setup).
     pub lead: u32,
-    /// Shortest time from the last rising edge to the end of the unit time (direction hold).
+    /// Least time from the last rising edge to the end of the unit time (direction hold).
     pub tail: u32,
 }
 
 impl PulseLimits {
-    /// Limits of a half-period register of `half_period_bits` bits and of a driver's step input,
-    /// without any on the direction.
+    /// Creates limits for a half-period register of `half_period_bits` bits and a driver's step
+    /// input, without limits on the direction.
     #[must_use]
     pub fn new(half_period_bits: u32, min_high: u32, min_low: u32) -> Self {
         Self {
@@ -38,11 +38,11 @@ impl PulseLimits {
     }
 }
 
-/// The half-period to use for `pulses` in `period` ticks, or `None` where the count does not exist
-/// or every half-period giving it breaks a limit. No pulses: 0.
+/// Returns the half-period for `pulses` in `period` ticks, or `None` if the count is impossible or
+/// every half-period for it violates a limit. Returns 0 for no pulses.
 ///
-/// It is the patent's recipe where that is one of the candidates, for it spreads the pulses most
-/// evenly; otherwise the candidate whose shortest high or low time is the longest.
+/// The patent's recipe is preferred if it is a candidate, since it spreads the pulses most evenly;
+/// otherwise the candidate with the greatest minimum of high and low times.
 #[must_use]
 pub fn choose_half_period(pulses: u32, period: u32, limits: &PulseLimits) -> Option<u32> {
     let Some(even) = recipe(pulses, period) else {
@@ -55,7 +55,7 @@ pub fn choose_half_period(pulses: u32, period: u32, limits: &PulseLimits) -> Opt
         .into_iter()
         .fold(*range.start(), u32::max);
     let longest = u64::from((*range.end()).min(limits.max_half_period)).min(room / last_rise(1));
-    // At most the range's end, hence the cast keeps the value.
+    // Limited by the range's end, so the cast keeps the value.
     let longest = longest as u32;
     if shortest > longest {
         return None;
@@ -63,8 +63,8 @@ pub fn choose_half_period(pulses: u32, period: u32, limits: &PulseLimits) -> Opt
     if (shortest..=longest).contains(&even) {
         return Some(even);
     }
-    // The low time grows with n and the last high time shrinks with it: the best n is one of the
-    // two about the crossing T/(2Y), or the end of the range next to it.
+    // The low time grows with n and the last high time shrinks: the best n is one of the two
+    // around the crossing T/(2Y), or the end of the range next to it.
     let narrowest = |n: u32| u64::from(n).min(u64::from(period) - last_rise(n));
     [even.saturating_sub(1), even]
         .map(|n| n.clamp(shortest, longest))
@@ -72,16 +72,16 @@ pub fn choose_half_period(pulses: u32, period: u32, limits: &PulseLimits) -> Opt
         .max_by_key(|&n| narrowest(n))
 }
 
-/// One count a unit time offers.
+/// Count offered by a unit time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Offer {
-    /// Pulses in the unit time.
+    /// Number of pulses in the unit time.
     pub pulses: u32,
     /// Half-period that gives them, in ticks; 0 for no pulses.
     pub half_period: u32,
 }
 
-/// All counts one unit time offers, with the half-period chosen for each.
+/// All counts offered by one unit time, with the half-period chosen for each.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CountTable {
     period: u32,
@@ -89,7 +89,8 @@ pub struct CountTable {
 }
 
 impl CountTable {
-    /// The counts that `period` ticks hold within `limits`. No pulses is always one of them.
+    /// Creates the table of counts in `period` ticks within `limits`. Zero pulses are always
+    /// included.
     #[must_use]
     pub fn new(period: u32, limits: &PulseLimits) -> Self {
         let mut offers: Vec<Offer> = attainable_counts(period)
@@ -109,33 +110,33 @@ impl CountTable {
         Self { period, offers }
     }
 
-    /// The unit time in ticks.
+    /// Returns the unit time in ticks.
     #[must_use]
     pub fn period(&self) -> u32 {
         self.period
     }
 
-    /// Every offer, in ascending order of its pulses.
+    /// Returns all offers, in ascending order of pulses.
     #[must_use]
     pub fn offers(&self) -> &[Offer] {
         &self.offers
     }
 
-    /// Whether exactly this count is offered.
+    /// True if exactly this count is offered.
     #[must_use]
     pub fn contains(&self, pulses: u32) -> bool {
         self.at_most(pulses).pulses == pulses
     }
 
-    /// The largest count offered that is not above `demand`.
+    /// Returns the greatest count offered that is not above `demand`.
     #[must_use]
     pub fn at_most(&self, demand: u32) -> Offer {
         let above = self.offers.partition_point(|offer| offer.pulses <= demand);
         self.offers[above.saturating_sub(1)]
     }
 
-    /// The count offered nearest to `demand`; of two as near the smaller, since what is left can be
-    /// made up for and what is too much can not.
+    /// Returns the count offered nearest to `demand`; of two equally near the smaller, since a
+    /// deficit can be made up for and an excess cannot.
     #[must_use]
     pub fn nearest(&self, demand: u32) -> Offer {
         let above = self.offers.partition_point(|offer| offer.pulses <= demand);
@@ -152,7 +153,8 @@ mod tests {
     use super::*;
     use crate::circuits::pulse_interpolator::counts::tests::play;
 
-    /// Shortest high, shortest low before a rise, last rise: all read off the played signal.
+    /// Returns shortest high time, shortest low time before a rise, and last rise, from the played
+    /// signal.
     fn measure(half_period: u32, period: u32) -> (u32, u32, u32) {
         let (mut high, mut low, mut fall, mut rise) = (u32::MAX, u32::MAX, 0, 0);
         for (up, down) in play(half_period, period) {
@@ -211,7 +213,7 @@ mod tests {
                             high.min(low)
                         }
                     };
-                    // Two half-periods may be as wide as each other.
+                    // Two half-periods may be equally good.
                     assert_eq!(
                         chosen.map(width),
                         expected.map(width),
@@ -275,7 +277,7 @@ mod tests {
     fn widths_of_register() {
         assert_eq!(PulseLimits::new(16, 1, 1).max_half_period, 65_535);
         assert_eq!(PulseLimits::new(32, 1, 1).max_half_period, u32::MAX);
-        // One pulse in T needs a half-period above T/3, which four bits do not hold.
+        // One pulse in T needs a half-period above T/3, which does not fit four bits.
         let table = CountTable::new(100, &PulseLimits::new(4, 1, 1));
         assert!(!table.contains(1) && table.contains(4));
     }

@@ -1,4 +1,4 @@
-//! The path in steps: the border between millimetres and what the interpolator counts.
+//! Path in steps: the border between millimetres and the interpolator's counts.
 
 use super::error::TableError;
 use super::settings::Settings;
@@ -6,34 +6,34 @@ use crate::input::{COORDINATES, Point};
 use crate::plan::{Plan, Sampler};
 use fixed::types::I48F16;
 
-/// A position in steps. Sixteen fraction bits are coarser than the rounding noise of the path's
-/// floating-point numbers, so that an axis resting on half a step does not flicker.
+/// Position in steps. Sixteen fraction bits are coarser than the rounding noise of the path's
+/// floating-point numbers, so that an axis at rest on half a step does not flicker.
 pub(super) type Steps = I48F16;
 
 /// Names of the axes.
 pub(super) const AXES: [&str; COORDINATES] = ["X", "Y", "Z"];
 
-/// Where the axes are to be at a time.
+/// Demanded positions at a time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Demand {
-    /// Per axis; 0 for those not driven.
+    /// Position per axis; 0 for axes that are not driven.
     pub(super) steps: [Steps; COORDINATES],
-    /// Whether an arc is under way.
+    /// True if the current move is an arc.
     pub(super) arc: bool,
-    /// Whether a rapid move is under way.
+    /// True if the current move is rapid.
     pub(super) rapid: bool,
-    /// Line of the input under way.
+    /// Current line of the input.
     pub(super) line: usize,
 }
 
 impl Demand {
-    /// The nearest whole step, which is known to fit 32 bits.
+    /// Returns the nearest whole step, which fits 32 bits.
     pub(super) fn rounded(&self, axis: usize) -> i64 {
         self.steps[axis].round().to_num()
     }
 }
 
-/// The demand by the tick.
+/// Demand over time in ticks.
 #[derive(Debug)]
 pub(super) struct Demands<'p, 'd> {
     sampler: Sampler<'p, 'd>,
@@ -52,27 +52,27 @@ impl<'p, 'd> Demands<'p, 'd> {
         }
     }
 
-    /// A time in seconds.
+    /// Converts ticks to seconds.
     pub(super) fn seconds(&self, ticks: u64) -> f64 {
         ticks as f64 / self.clock_hz
     }
 
-    /// Whether the path has ended.
+    /// True if the path has ended.
     pub(super) fn ended(&self, ticks: u64) -> bool {
         self.seconds(ticks) >= self.duration_s
     }
 
-    /// The demand after so many ticks; from the path's end on exactly the end.
+    /// Returns the demand after `ticks` ticks; from the path's end on exactly the end.
     pub(super) fn at(&mut self, ticks: u64) -> Result<Demand, TableError> {
         self.at_time(self.seconds(ticks))
     }
 
-    /// The times within a span at which a coordinate may stop or turn.
+    /// Finds the times within a span at which a coordinate may stop or reverse.
     pub(super) fn turns(&mut self, span_s: [f64; 2], turns: &mut Vec<f64>) {
         self.sampler.turns(span_s, turns);
     }
 
-    /// The demand at a time.
+    /// Returns the demand at a time.
     pub(super) fn at_time(&mut self, time_s: f64) -> Result<Demand, TableError> {
         let sample = self.sampler.at(time_s);
         Ok(Demand {
@@ -97,9 +97,9 @@ impl<'p, 'd> Demands<'p, 'd> {
     }
 }
 
-/// The position nearest to so many steps, if its rounding to whole ones fits 32 bits.
+/// Returns the position nearest to `steps`, if it rounds to a step that fits 32 bits.
 fn nearest(steps: f64) -> Option<Steps> {
-    // As `from_num` does it, without taking the number apart: a long path asks for millions.
+    // Same result as `from_num`, but faster: a long path needs millions of conversions.
     if steps.abs() < f64::from(i32::MAX) {
         let parts = steps * f64::from(1_u32 << Steps::FRAC_NBITS);
         return Some(Steps::from_bits(parts.round_ties_even() as i64));
@@ -124,7 +124,7 @@ mod tests {
             steps in prop_oneof![-2.2e9..2.2e9, -2.0..2.0, -1e-4..1e-4],
             half in any::<i32>(),
         ) {
-            // Halves of the least part, which are rounded to even ones.
+            // Halves of the least part, which are rounded to even.
             for steps in [steps, f64::from(half) / 131_072.0] {
                 let fits = steps.round().abs() <= f64::from(i32::MAX) || steps.round() == f64::from(i32::MIN);
                 prop_assert_eq!(nearest(steps), fits.then(|| Steps::from_num(steps)));

@@ -1,18 +1,18 @@
-//! Why a table cannot be made.
+//! Errors of table compilation.
 
 use crate::plan::PlanError;
 use crate::settings::SettingError;
 
-/// Why a table cannot be made.
+/// Reason why a table cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TableError {
-    /// A setting is outside what is allowed.
+    /// A setting is out of range.
     #[error(transparent)]
     Setting(#[from] SettingError),
     /// The path cannot be planned.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// A position is outside the 32-bit step counters.
+    /// A position exceeds the 32-bit step counters.
     #[error(
         "line {line}: {axis} = {steps} steps: allowed are {} to {}",
         i32::MIN,
@@ -21,17 +21,17 @@ pub enum TableError {
     Position {
         /// Line of the input.
         line: usize,
-        /// "X", "Y" or "Z".
+        /// Axis: "X", "Y" or "Z".
         axis: &'static str,
-        /// The position in steps.
+        /// Position in steps.
         steps: f64,
     },
     /// The path takes more unit times than a table may have.
     #[error("the path takes {units} unit times: allowed are {most}")]
     TooLong {
-        /// Unit times needed, as far as known.
+        /// Number of unit times needed, as far as known.
         units: f64,
-        /// Unit times allowed.
+        /// Number of unit times allowed.
         most: usize,
     },
     /// A scaled half-period does not fit the memory word.
@@ -39,11 +39,11 @@ pub enum TableError {
     ScaledHalfPeriod {
         /// Unit time, from 0.
         unit: usize,
-        /// "X", "Y" or "Z".
+        /// Axis: "X", "Y" or "Z".
         axis: &'static str,
-        /// The half-period in ticks.
+        /// Half-period in ticks.
         half_period: u64,
-        /// The longest the word can hold.
+        /// Greatest half-period of the word.
         most: u32,
     },
 }

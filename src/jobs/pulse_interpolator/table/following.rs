@@ -1,4 +1,4 @@
-//! Following errors: where the axes are at any time, against where the path demands them.
+//! Following errors: positions of the axes at any time, compared with the path.
 
 use super::demand::{Demand, Demands, Steps};
 use super::error::TableError;
@@ -9,39 +9,39 @@ use crate::input::{COORDINATES, Drawing};
 use crate::jobs::pulse_interpolator::positions::Positions;
 use crate::plan::Plan;
 
-/// A unit time that is over.
+/// Errors of a completed unit time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UnitErrors {
-    /// The unit, from 0.
+    /// Unit, from 0.
     pub unit: usize,
-    /// When it ends, in seconds.
+    /// End time in seconds.
     pub time_s: f64,
-    /// Line of the input under way at that time.
+    /// Line of the input at that time.
     pub line: usize,
-    /// Whether that is a rapid move.
+    /// True if that is a rapid move.
     pub rapid: bool,
-    /// Demand less position of each axis in steps, where in the unit it is farthest from 0; 0 for
-    /// the axes not driven.
+    /// Demand minus position of each axis in steps, at its greatest absolute value in the unit; 0
+    /// for axes that are not driven.
     pub errors: [f64; COORDINATES],
-    /// Demand less position of each axis in steps at its end.
+    /// Demand minus position of each axis in steps at the end.
     pub end_errors: [f64; COORDINATES],
-    /// Positions at its end in steps from where the axes began; 0 for the axes not driven.
+    /// Positions at the end in steps from the axes' start; 0 for axes that are not driven.
     pub positions: [i32; COORDINATES],
 }
 
-/// Where a path demands the axes at the end of a unit time, in steps from where they begin; 0 for the
-/// axes not driven.
+/// Positions of a path at the end of a unit time, in steps from the axes' start; 0 for axes that
+/// are not driven.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UnitDemand {
-    /// T in ticks.
+    /// Unit time T in ticks.
     pub period: u32,
-    /// Exactly.
+    /// Exact position.
     pub exact: [f64; COORDINATES],
-    /// To the nearest step.
+    /// Position rounded to the nearest step.
     pub rounded: [i64; COORDINATES],
 }
 
-/// Demand and position over a run, unit after unit.
+/// Comparison of demand and position over a run, unit after unit.
 struct Follower<'p, 'd> {
     demands: Demands<'p, 'd>,
     /// Position of each axis at the beginning of the unit.
@@ -53,10 +53,10 @@ struct Follower<'p, 'd> {
 }
 
 impl Follower<'_, '_> {
-    /// A unit with these words, at whose end the axes are at `positions`.
+    /// Adds a unit with these words, which ends with the axes at `positions`.
     ///
-    /// Between two steps, and between two places where the path may turn, the demand of an axis goes
-    /// one way and its position stays: the error is the largest at one of these.
+    /// Between two steps, and between two points at which the path may reverse, the demand of an
+    /// axis is monotonic and its position constant: the error is greatest at one of these.
     fn unit(
         &mut self,
         period: u32,
@@ -86,7 +86,7 @@ impl Follower<'_, '_> {
                     unit.errors[axis] = error;
                 }
                 let largest = &mut self.largest[axis];
-                // Not where it is as large: the first of equals.
+                // Not if it is equal: the first is kept.
                 if error.abs() > largest.steps {
                     *largest = FollowingError {
                         steps: error.abs(),
@@ -96,7 +96,7 @@ impl Follower<'_, '_> {
                     };
                 }
             };
-            // Where a variant of the circuit made other steps than the word says, when is not known.
+            // If a variant of the circuit made other steps than the word, their times are unknown.
             if from + steps.signed(steps.count) == to {
                 for &time_s in &turns {
                     let ticks = (time_s - begin_s) / (end_s - begin_s) * f64::from(period);
@@ -121,7 +121,7 @@ impl Follower<'_, '_> {
     }
 }
 
-/// When a word steps within its unit time.
+/// Times of a word's steps within its unit time.
 struct Staircase {
     half_period: u64,
     negative: bool,
@@ -140,12 +140,12 @@ impl Staircase {
         }
     }
 
-    /// The tick in which a step, counted from 0, rises.
+    /// Returns the tick in which a step, counted from 0, rises.
     fn rise(&self, step: u64) -> u64 {
         (2 * step + 1) * self.half_period
     }
 
-    /// Steps up to a time in ticks.
+    /// Returns the number of steps up to a time in ticks.
     fn until(&self, ticks: f64) -> u64 {
         match self.half_period {
             0 => 0,
@@ -160,14 +160,14 @@ impl Staircase {
     }
 }
 
-/// Compares where a run of `table` had the axes with where `drawing` demands them: tells `each` of
-/// every unit time, and returns the largest error of each axis, at whatever time.
+/// Compares the positions of a run of `table` with the path of `drawing`: calls `each` with every
+/// unit time, and returns the greatest error of each axis at any time.
 ///
-/// Within a unit the steps are where the half-period has them.
+/// Within a unit, the half-period determines the times of the steps.
 ///
 /// # Errors
 ///
-/// [`TableError`], where `settings` are not those that the table was compiled with.
+/// Returns a [`TableError`] if `settings` are not those with which the table was compiled.
 pub fn follow(
     drawing: &Drawing,
     settings: &Settings,
@@ -191,11 +191,11 @@ pub fn follow(
     Ok(follower.largest)
 }
 
-/// Where `drawing` demands the axes at the end of the first `units` unit times of `table`.
+/// Returns the positions of `drawing` at the end of the first `units` unit times of `table`.
 ///
 /// # Errors
 ///
-/// As [`follow`].
+/// Returns the errors of [`follow`].
 pub fn demanded(
     drawing: &Drawing,
     settings: &Settings,
@@ -224,7 +224,7 @@ pub fn demanded(
     each.collect()
 }
 
-/// The largest following errors of the steps that `table` stands for.
+/// Returns the greatest following errors of the steps in `table`.
 pub(super) fn of_table(
     plan: &Plan<'_>,
     settings: &Settings,

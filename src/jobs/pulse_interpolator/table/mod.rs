@@ -1,9 +1,8 @@
-//! From a drawing to the contents of the pattern memory.
+//! Conversion of a drawing to the contents of the pattern memory.
 //!
-//! [`counts`](crate::circuits::pulse_interpolator::counts) says how many pulses a half-period gives
-//! in a unit time and which counts exist;
-//! [`compile`] turns a drawing into a [`Table`] of half-periods and reports what came of it;
-//! [`Table::scaled`] is the text's scaling by multiplying the data.
+//! [`counts`](crate::circuits::pulse_interpolator::counts) gives the pulses of a half-period in a
+//! unit time and the possible counts; [`compile`] turns a drawing into a [`Table`] of
+//! half-periods, with a report; [`Table::scaled`] is the text's scaling by multiplying the data.
 
 mod compile;
 mod count_table;

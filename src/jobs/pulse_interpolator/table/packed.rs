@@ -1,11 +1,11 @@
-//! Many words in little memory: there are few that differ.
+//! Compact storage of many words, few of which differ.
 
 use super::words::Word;
 use crate::circuits::pulse_interpolator::AXES_MAX;
 use rustc_hash::FxHashMap;
 use std::ops::Deref;
 
-/// Numbers of words, as wide as the greatest needs.
+/// Indices of words, as wide as the greatest needs.
 #[derive(Debug, Clone)]
 enum Numbers {
     Bytes(Vec<u8>),
@@ -13,12 +13,12 @@ enum Numbers {
     Whole(Vec<u32>),
 }
 
-/// Words in order. Each is a number into the list of those that differ: a byte as long as these are
-/// 256 at most.
+/// Words in order, each an index into the list of distinct words: one byte while there are at most
+/// 256 of these.
 #[derive(Debug, Clone)]
 pub(super) struct PackedWords {
     numbers: Numbers,
-    /// The words that differ.
+    /// Distinct words.
     differing: Vec<Word>,
     number_of: FxHashMap<u32, u32>,
 }
@@ -42,7 +42,7 @@ impl PackedWords {
         }
     }
 
-    /// The word at a place, which there is.
+    /// Returns the word at an existing position.
     pub(super) fn at(&self, place: usize) -> Word {
         let number = match &self.numbers {
             Numbers::Bytes(all) => usize::from(all[place]),
@@ -61,7 +61,7 @@ impl PackedWords {
         }
     }
 
-    /// Puts a word in the place of another.
+    /// Replaces the word at a position.
     pub(super) fn set(&mut self, place: usize, word: Word) {
         let number = self.number(word);
         match &mut self.numbers {
@@ -71,7 +71,7 @@ impl PackedWords {
         }
     }
 
-    /// The number of a word, which fits the numbers from then on.
+    /// Returns the index of a word, and widens the indices if necessary.
     fn number(&mut self, word: Word) -> u32 {
         let next = self.differing.len() as u32;
         let number = *self.number_of.entry(word.bits()).or_insert(next);
@@ -106,7 +106,7 @@ impl PartialEq for PackedWords {
 
 impl Eq for PackedWords {}
 
-/// The words of a unit time, X first.
+/// Words of a unit time, X first.
 #[derive(Debug, Clone, Copy)]
 pub struct UnitWords {
     words: [Word; AXES_MAX],
@@ -140,7 +140,7 @@ mod tests {
         let word = |k: u32| Word::new(k.wrapping_mul(2_654_435_761) >> 1, k.is_multiple_of(3));
         for many in [1, 256, 257, 65_536, 65_537, 70_000] {
             let mut packed = PackedWords::default();
-            // A word that is there makes no other number.
+            // An existing word gets no new index.
             (0..many).for_each(|k| packed.push(word(k)));
             (0..many).for_each(|k| packed.push(word(k / 2)));
             assert_eq!(packed.len(), 2 * many as usize);
@@ -159,7 +159,7 @@ mod tests {
             assert_eq!(other.at(0), Word::new(5, true));
             assert!(other != packed);
             other.set(0, word(0));
-            // Equal words are equal, whatever their numbers are.
+            // Equal words are equal, whatever their indices are.
             assert!(other == packed);
         }
     }

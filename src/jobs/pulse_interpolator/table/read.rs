@@ -1,4 +1,5 @@
-//! Tables in CSV: as the command `table` writes them, or as whoever fills the memory does (¶0013).
+//! Reader of tables in CSV, as written by the command `table` or by other programs that fill the
+//! memory (¶0013).
 //!
 //! ```text
 //! unit,period_ticks,x_half_period_ticks,x_down,y_half_period_ticks,y_down
@@ -14,7 +15,7 @@ use crate::input::{Fault, read_string};
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-/// What the columns of a table with so many axes are called.
+/// Returns the column names of a table with `axes` axes.
 #[must_use]
 pub fn columns(axes: usize) -> Vec<String> {
     let words = AXIS_NAMES
@@ -27,20 +28,20 @@ pub fn columns(axes: usize) -> Vec<String> {
         .collect()
 }
 
-/// Reads a table from disk, for a reference clock of so many Hz.
+/// Reads a table from disk, for a reference clock of `clock_hz`.
 ///
 /// # Errors
-/// The file cannot be read; and whatever [`read`] objects to.
+/// Returns an error if the file cannot be read, and the errors of [`read`].
 pub fn read_path(path: &Path, clock_hz: u64) -> Result<Table, Fault> {
     let text = read_string(path, "a table in CSV")?;
     read(&path.display().to_string(), &text, clock_hz)
 }
 
-/// Reads a table that is called `file` in faults.
+/// Parses a table; faults name the file `file`.
 ///
 /// # Errors
-/// A header of other columns, a row with more or fewer fields, a unit out of turn, a number that is
-/// none or does not fit its word, no rows or too many.
+/// Returns an error for a header with other columns, a row with more or fewer fields, a unit out
+/// of order, an invalid number or one that does not fit its word, no rows or too many.
 pub fn read(file: &str, text: &str, clock_hz: u64) -> Result<Table, Fault> {
     let widths = Widths::default();
     let greatest = |bits: usize| (1u64 << bits) - 1;

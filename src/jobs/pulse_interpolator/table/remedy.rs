@@ -1,4 +1,4 @@
-//! The unit time at which every demand of a path is attainable.
+//! Search for a unit time with which every demand of a path is attainable.
 
 use super::compile::{compile_plan, units_needed};
 use super::count_table::{PulseLimits, choose_half_period};
@@ -9,15 +9,15 @@ use super::settings::Settings;
 use super::words::MAX_UNITS;
 use crate::plan::Plan;
 
-/// Units looked at before the search stops trying every unit time.
+/// Number of units examined before the search stops.
 const WORK: u64 = 30_000_000;
 
-/// The largest unit time, for lines and arcs alike and below the longer one set, at which every
-/// demand is attainable.
+/// Returns the greatest unit time, for lines and arcs alike and below the longer one set, with
+/// which every demand is attainable.
 ///
-/// Fewer ticks mean fewer steps per unit, but nothing is monotone about which counts exist, so that
-/// the search goes down one by one; it costs little, since where one unit time fails the next
-/// mostly fails as well.
+/// Fewer ticks mean fewer steps per unit, but the possible counts are not monotonic, so the search
+/// goes down one by one. It costs little, since a unit where one unit time fails usually fails for
+/// the next one too.
 pub(super) fn find(plan: &Plan<'_>, settings: &Settings) -> Result<Option<Remedy>, TableError> {
     let mut search = Search {
         demands: Demands::new(plan, settings),
@@ -55,13 +55,13 @@ struct Search<'p, 'd> {
     demands: Demands<'p, 'd>,
     axes: usize,
     limits: PulseLimits,
-    /// Where the last unit time failed, in ticks.
+    /// Position at which the last unit time failed, in ticks.
     last_failure: u64,
     work: u64,
 }
 
 impl Search<'_, '_> {
-    /// Looks at every unit, beginning shortly before the last failure.
+    /// Examines every unit, beginning shortly before the last failure.
     fn all_attainable(&mut self, period: u32) -> Result<bool, TableError> {
         let first = (self.last_failure / u64::from(period)).saturating_sub(8);
         let ticks = |unit: u64| unit * u64::from(period);

@@ -1,75 +1,75 @@
-//! What came of a compilation.
+//! Report of a compilation.
 
 use serde::Serialize;
 
-/// What came of a compilation.
+/// Report of a compilation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Report {
-    /// Each axis, X first.
+    /// Reports of the axes, X first.
     pub axes: Vec<AxisReport>,
-    /// Coordinates in which the drawing moves though no axis drives them.
+    /// Coordinates in which the drawing moves although no axis drives them.
     pub undriven: Vec<&'static str>,
-    /// Unit times in the table.
+    /// Number of unit times in the table.
     pub units: usize,
-    /// Of these, how many follow the end of the path, to make up for what was carried.
+    /// Number of unit times after the end of the path, which make up for carried steps.
     pub appended_units: usize,
-    /// Units in which the demand of some axis is a count the unit does not offer.
+    /// Number of units in which the demand of some axis is a count that the unit does not offer.
     pub unattainable_units: usize,
-    /// What would make every demand attainable; `None` where every one is, and where nothing
-    /// would.
+    /// Change that would make every demand attainable; `None` if every one is, or if there is no
+    /// such change.
     pub remedy: Option<Remedy>,
     /// Length of the table in ticks.
     pub total_ticks: u64,
 }
 
-/// A unit time for lines and arcs alike at which every demand of the path is attainable, found by
-/// compiling with it.
+/// Unit time for lines and arcs alike with which every demand of the path is attainable, confirmed
+/// by compiling with it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Remedy {
-    /// The unit time T in ticks, below the longer one set.
+    /// Unit time T in ticks, below the longer one set.
     pub period: u32,
-    /// Whether every longer one (below that set) has been ruled out; else the search was cut short
-    /// by its limit of work.
+    /// True if every longer one (below that set) has been ruled out; false if the search reached
+    /// its limit of work.
     pub largest: bool,
 }
 
-/// One axis of a [`Report`]. Positions are in steps from the drawing's origin.
+/// Report on one axis. Positions are in steps from the drawing's origin.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct AxisReport {
     /// Rounded position at the start.
     pub start_position: i32,
     /// Position after the last pulse.
     pub end_position: i32,
-    /// Rounded end of the path less rounded start.
+    /// Rounded end of the path minus rounded start.
     pub steps_demanded: i64,
-    /// Pulses in the positive direction.
+    /// Number of pulses in the positive direction.
     pub pulses_forward: u64,
-    /// Pulses in the negative direction.
+    /// Number of pulses in the negative direction.
     pub pulses_backward: u64,
-    /// Units in which this axis's demand is a count the unit does not offer.
+    /// Number of units in which this axis's demand is a count that the unit does not offer.
     pub unattainable_units: usize,
-    /// The largest following error.
+    /// Greatest following error.
     pub following_error: FollowingError,
 }
 
 impl AxisReport {
-    /// All pulses, either way.
+    /// Returns the number of all pulses, in either direction.
     #[must_use]
     pub fn pulses_emitted(&self) -> u64 {
         self.pulses_forward + self.pulses_backward
     }
 }
 
-/// The largest following error of an axis, and where: the distance between the pulses emitted and
-/// the exact, unrounded demand, at whatever time, just before and after each pulse included.
+/// Greatest following error of an axis and its time: the distance between the emitted pulses and
+/// the exact, unrounded demand, at any time, including just before and after each pulse.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct FollowingError {
-    /// In steps.
+    /// Error in steps.
     pub steps: f64,
-    /// The first unit it is reached in, from 0.
+    /// First unit in which it is reached, from 0.
     pub unit: usize,
-    /// When, in seconds.
+    /// Time in seconds.
     pub time_s: f64,
-    /// Line of the input under way at that time.
+    /// Line of the input at that time.
     pub line: usize,
 }

@@ -6,7 +6,7 @@ use super::words::{Table, Word};
 use crate::circuits::pulse_interpolator::{AXIS_NAMES, counts::pulses};
 use crate::settings::SettingError;
 
-/// A ratio of two whole numbers above 0.
+/// Ratio of two whole numbers above 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Ratio {
     /// Numerator.
@@ -15,24 +15,24 @@ pub struct Ratio {
     pub den: u32,
 }
 
-/// A scaled table.
+/// Scaled table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scaled {
-    /// The table, with the unit times of the original.
+    /// Table with the unit times of the original.
     pub table: Table,
-    /// How far each axis is off, X first.
+    /// Deviations of the axes, X first.
     pub axes: Vec<AxisScaling>,
 }
 
-/// How far an axis of a scaled table is off the ideal, in which a unit of Y pulses scaled by r has
+/// Deviation of a scaled table's axis from the ideal, in which a unit of Y pulses scaled by r has
 /// Y/r.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisScaling {
-    /// Largest difference from the ideal in one unit, in pulses.
+    /// Greatest deviation in one unit, in pulses.
     pub largest_deviation: f64,
-    /// Position at the end less the ideal one, in steps.
+    /// Position at the end minus the ideal one, in steps.
     pub drift: f64,
-    /// Units whose half-period times the ratio is no whole number and was rounded.
+    /// Number of units whose half-period times the ratio is not a whole number and was rounded.
     pub rounded_units: usize,
 }
 
@@ -40,8 +40,8 @@ impl Table {
     /// Multiplies every half-period by `ratio` and leaves the unit times: the drawing becomes
     /// `1/ratio` times as large, in the same time.
     ///
-    /// Half-periods are rounded to the nearest tick, to no less than 1; one that reaches T gives no
-    /// pulse and is stored as 0. The step and direction timing is not looked at again.
+    /// Half-periods are rounded to the nearest tick, to at least 1; one that reaches T gives no
+    /// pulse and is stored as 0. The step and direction timing is not checked again.
     ///
     /// Since a unit's count is (T-1)/2n rounded, with r the ratio and n' the new half-period, the
     /// deviation of a unit
@@ -57,8 +57,8 @@ impl Table {
     ///
     /// # Errors
     ///
-    /// [`TableError::Setting`] where the ratio has a 0, [`TableError::ScaledHalfPeriod`] where a
-    /// half-period below T outgrows the memory word.
+    /// Returns [`TableError::Setting`] if the ratio has a 0, and [`TableError::ScaledHalfPeriod`]
+    /// if a half-period below T exceeds the memory word.
     pub fn scaled(&self, ratio: Ratio) -> Result<Scaled, TableError> {
         let Ratio { num, den } = ratio;
         if num == 0 || den == 0 {
@@ -119,7 +119,7 @@ impl Table {
     }
 }
 
-/// Sums of an axis, in pulses times the ratio's numerator so that they are exact.
+/// Sums of an axis, in pulses times the ratio's numerator, which keeps them exact.
 #[derive(Debug, Clone, Copy, Default)]
 struct Deviation {
     largest: i128,
@@ -147,7 +147,7 @@ impl Deviation {
 mod tests {
     use super::*;
 
-    /// One unit time of one axis.
+    /// Returns one unit time of one axis.
     fn unit(half_period: u32, period: u32, negative: bool) -> Table {
         let mut table = Table::new(1000, 1, 16);
         table.open_unit(period).unwrap();
@@ -159,8 +159,8 @@ mod tests {
         table.words().collect()
     }
 
-    /// Every unit time up to 160, every half-period, every ratio of small numbers: the deviation
-    /// reported, against the bounds the documentation states.
+    /// Every unit time up to 160, every half-period, every ratio of small numbers: the reported
+    /// deviation, compared with the bounds in the documentation.
     #[test]
     fn deviations_keep_the_stated_bounds_and_reach_beyond_one_pulse() {
         let (mut whole_shrunk, mut rounded_shrunk, mut two_fifths) = (0.0_f64, 0.0_f64, 0.0_f64);
@@ -206,7 +206,7 @@ mod tests {
     #[test]
     fn direction_is_kept_and_signs_the_drift() {
         let scaled = unit(3, 10, true).scaled(Ratio { num: 3, den: 1 }).unwrap();
-        // Two pulses become one, where two thirds of one would be right.
+        // Two pulses become one; two thirds of one would be right.
         assert_eq!(words(&scaled.table), [Word::new(9, true)]);
         assert!((scaled.axes[0].drift + 1.0 / 3.0).abs() < 1e-12);
     }

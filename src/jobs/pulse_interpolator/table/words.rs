@@ -1,59 +1,59 @@
-//! The memory of the interpolator: a word per axis and unit time.
+//! Memory of the interpolator: one word per axis and unit time.
 
 use super::error::TableError;
 use super::packed::{PackedWords, UnitWords};
 
-/// The most unit times a table may have: 100 MB of words for three axes, or several times as many
-/// where more than 256 differ.
+/// Greatest number of unit times in a table: 100 MB of words for three axes, or several times that
+/// if more than 256 differ.
 pub const MAX_UNITS: usize = 1 << 25;
 
-/// A memory word: bit 31 is the direction (1 = negative), the rest the half-period in ticks
-/// (0 = no pulse).
+/// Memory word: bit 31 is the direction (1 = negative), the rest the half-period in ticks (0 = no
+/// pulse).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Word(u32);
 
 impl Word {
     const NEGATIVE: u32 = 1 << 31;
 
-    /// A word of `half_period` ticks, of which the low 31 bits count.
+    /// Creates a word of `half_period` ticks, of which only the low 31 bits are used.
     #[must_use]
     pub const fn new(half_period: u32, negative: bool) -> Self {
         let direction = if negative { Self::NEGATIVE } else { 0 };
         Self(half_period & !Self::NEGATIVE | direction)
     }
 
-    /// Half-period in ticks; 0 = no pulse.
+    /// Returns the half-period in ticks; 0 = no pulse.
     #[must_use]
     pub const fn half_period(self) -> u32 {
         self.0 & !Self::NEGATIVE
     }
 
-    /// Whether the direction is negative.
+    /// True if the direction is negative.
     #[must_use]
     pub const fn negative(self) -> bool {
         self.0 & Self::NEGATIVE != 0
     }
 
-    /// The word as it is stored.
+    /// Returns the word as stored.
     #[must_use]
     pub const fn bits(self) -> u32 {
         self.0
     }
 }
 
-/// A run of unit times of one length (paragraph 0014: T1 for arcs, T2 for lines).
+/// Run of unit times of one length (paragraph 0014: T1 for arcs, T2 for lines).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pattern {
     /// Unit time T in ticks.
     pub period: u32,
-    /// Its first unit, from 0.
+    /// First unit, from 0.
     pub first_unit: usize,
-    /// How many units it has.
+    /// Number of units.
     pub length: usize,
 }
 
-/// The memory's content: for every unit time one [`Word`] per axis, and the patterns that say how
-/// long the unit times are.
+/// Contents of the memory: one [`Word`] per axis for every unit time, and the patterns that give
+/// the length of the unit times.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Table {
     pub(super) clock_hz: u64,
@@ -94,12 +94,12 @@ impl Table {
         Ok(())
     }
 
-    /// One without units, for the same axes.
+    /// Returns an empty table for the same axes.
     pub(in crate::jobs::pulse_interpolator) fn empty(&self) -> Self {
         Self::new(self.clock_hz, self.axes, self.half_period_bits)
     }
 
-    /// The same words, all of them with a unit time of `period` ticks; patterns stay apart.
+    /// Returns the same words with a unit time of `period` ticks; patterns stay separate.
     pub(in crate::jobs::pulse_interpolator) fn at_period(&self, period: u32) -> Self {
         let patterns = self.patterns.iter();
         Self {
@@ -108,7 +108,7 @@ impl Table {
         }
     }
 
-    /// Words with the T of each place.
+    /// Returns the same words with the given T of each unit.
     pub(in crate::jobs::pulse_interpolator) fn with_periods(
         &self,
         periods: &[u32],
@@ -121,7 +121,7 @@ impl Table {
         Ok(table)
     }
 
-    /// The units of another follow.
+    /// Appends the units of another table.
     pub(in crate::jobs::pulse_interpolator) fn append(
         &mut self,
         other: &Self,
@@ -137,53 +137,53 @@ impl Table {
         self.words.push(word);
     }
 
-    /// Reference clock in Hz.
+    /// Returns the reference clock in Hz.
     #[must_use]
     pub fn clock_hz(&self) -> u64 {
         self.clock_hz
     }
 
-    /// Number of axes.
+    /// Returns the number of axes.
     #[must_use]
     pub fn axes(&self) -> usize {
         self.axes
     }
 
-    /// Width of the half-period, in bits.
+    /// Returns the width of the half-period in bits.
     #[must_use]
     pub fn half_period_bits(&self) -> u32 {
         self.half_period_bits
     }
 
-    /// Number of unit times.
+    /// Returns the number of unit times.
     #[must_use]
     pub fn units(&self) -> usize {
         self.words.len() / self.axes
     }
 
-    /// All words: those of unit 0 (X first), those of unit 1, and so on.
+    /// Returns all words: those of unit 0 (X first), those of unit 1, and so on.
     pub fn words(&self) -> impl Iterator<Item = Word> {
         (0..self.words.len()).map(|place| self.words.at(place))
     }
 
-    /// The word of an axis in a unit that there is.
+    /// Returns the word of an axis in an existing unit.
     pub(in crate::jobs::pulse_interpolator) fn word(&self, unit: usize, axis: usize) -> Word {
         self.words.at(unit * self.axes + axis)
     }
 
-    /// The words of one unit, X first; `None` beyond the end.
+    /// Returns the words of one unit, X first; `None` beyond the end.
     #[must_use]
     pub fn unit(&self, unit: usize) -> Option<UnitWords> {
         (unit < self.units()).then(|| UnitWords::of(&self.words, unit, self.axes))
     }
 
-    /// The patterns, in order; neighbours differ in their unit time.
+    /// Returns the patterns in order; neighbours differ in their unit time.
     #[must_use]
     pub fn patterns(&self) -> &[Pattern] {
         &self.patterns
     }
 
-    /// Every unit in order: its unit time in ticks and its words.
+    /// Returns every unit in order: its unit time in ticks and its words.
     pub fn iter(&self) -> impl Iterator<Item = (u32, UnitWords)> {
         let periods = self
             .patterns
@@ -193,7 +193,7 @@ impl Table {
         periods.zip((0..self.units()).map(unit))
     }
 
-    /// Length of the whole table in ticks.
+    /// Returns the length of the whole table in ticks.
     #[must_use]
     pub fn total_ticks(&self) -> u64 {
         self.patterns
