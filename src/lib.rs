@@ -1,9 +1,10 @@
 //! Motion-control patents as cycle-accurate register-transfer-level models on one shared
 //! reference tick.
 //!
-//! A [circuit](hdl::Circuit) is a struct with one function, [`tick`](hdl::Circuit::tick): it makes
-//! the nets of a tick and the registers of the next. What it says is a netlist, which the [engine]
-//! runs, proves and sweeps, and which is printed as [Verilog](verilog). Every signal can be dumped.
+//! A [circuit](hdl::Circuit) is a struct with one function, [`tick`](hdl::Circuit::tick), which
+//! computes the nets of a tick and the registers of the next. The function is elaborated to a
+//! netlist, which the [engine] runs, proves and sweeps, and which is printed as
+//! [Verilog](verilog). Every signal can be dumped.
 //!
 //! | patent | circuit | module |
 //! |---|---|---|
@@ -17,7 +18,7 @@
 //! # Use one circuit in my test
 //!
 //! Two axes that play one word of pattern memory over and over: half-periods of 50 and 80 ticks in
-//! unit times of 1000 ticks. The first unit time is silent, since nothing is read yet.
+//! unit times of 1000 ticks. The first unit time has no pulses, since nothing is read yet.
 //!
 //! ```
 //! use motion_rtl::circuits::pulse_interpolator::{Group, Pattern, Variant, Widths};
@@ -42,13 +43,13 @@
 //! # Ok::<(), motion_rtl::engine::EngineError>(())
 //! ```
 //!
-//! A run with [`trace::Vcd`] as observer writes all signals; [`trace::replay`] writes dump and
-//! GTKWave save file of a list of inputs.
+//! A run with [`trace::Vcd`] as observer writes all signals; [`trace::replay`] writes the dump and
+//! the GTKWave save file for a list of inputs.
 //!
 //! # Build my own circuit
 //!
-//! A watchdog: `bark` goes high when nothing came for `limit` ticks. [`check::reach`] tries every
-//! input in every state that it can come to.
+//! A watchdog: `bark` goes high after `limit` ticks without a `kick`. [`check::reach`] tries every
+//! input in every reachable state.
 //!
 //! ```
 //! use motion_rtl::hdl::prelude::*;
@@ -160,7 +161,7 @@
 //! let circuit = UnitLaw { width: 8, variant: Variant::Safe };
 //! drive(&circuit, &run, &mut File::create(at("golden.vcd"))?, &mut stimulus)?;
 //!
-//! // What stands for your simulator here.
+//! // In place of your simulator.
 //! std::fs::copy(at("golden.vcd"), at("tb.vcd"))?;
 //!
 //! let report = compare(&at("golden.vcd"), &at("tb.vcd"), &Settings::default())?;
@@ -171,13 +172,16 @@
 //! `rtl_notes/golden_model.md` does it with a design in Verilog;
 //! [`verilog::Verilog`] prints any circuit with a testbench.
 #![deny(unsafe_code)]
-#![warn(missing_docs)]
 
+#[warn(missing_docs)]
 pub mod check;
 pub mod circuits;
+#[warn(missing_docs)]
 pub mod compare;
+#[warn(missing_docs)]
 pub mod engine;
 pub mod files;
+#[warn(missing_docs)]
 pub mod hdl;
 pub mod input;
 pub mod jobs;
@@ -186,10 +190,13 @@ pub mod path;
 pub mod picture;
 pub mod plan;
 pub mod plant;
+#[warn(missing_docs)]
 pub mod registry;
 pub mod scenario;
 pub mod settings;
+#[warn(missing_docs)]
 pub mod trace;
+#[warn(missing_docs)]
 pub mod verilog;
 
 /// The code in the notes on conventions is compiled and run as tests.

@@ -1,6 +1,5 @@
 //! The command line of `motion-rtl`.
 #![forbid(unsafe_code)]
-#![warn(missing_docs)]
 
 mod cli;
 

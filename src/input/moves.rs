@@ -72,7 +72,6 @@ impl Moves {
         self.ends.get(index).map(|end| end.0)
     }
 
-    /// Returns the last move.
     #[must_use]
     pub fn last(&self) -> Option<Move> {
         self.get(self.len().checked_sub(1)?)

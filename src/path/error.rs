@@ -13,7 +13,6 @@ pub struct PathError {
     pub piece: usize,
     /// Line of the piece in the input.
     pub line: Option<usize>,
-    /// Reason.
     pub reason: Reason,
 }
 

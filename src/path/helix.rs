@@ -6,7 +6,6 @@ use super::vector::{add, dot, scale, sub, unit};
 use crate::input::{COORDINATES, Point};
 use std::f64::consts::TAU;
 
-/// Helix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Helix {
     /// Arc in the plane of its start.
@@ -44,13 +43,11 @@ impl Helix {
         unit(add(around, scale(self.circle.axis, self.rise)))
     }
 
-    /// Returns the length.
     #[must_use]
     pub fn length(&self) -> f64 {
         self.circle.length().hypot(self.rise)
     }
 
-    /// Returns the radius of curvature.
     #[must_use]
     pub fn curvature_radius(&self) -> f64 {
         let (radius, climb) = (self.circle.radius, self.rise / self.circle.angle);

@@ -113,7 +113,6 @@ impl<'d> Plan<'d> {
         self.segments.len()
     }
 
-    /// Returns a segment and its curve.
     pub(super) fn segment(&self, number: usize) -> (Segment, Curve) {
         let curve = Curve::of_move(self.drawing, self.segments[number].index);
         (unpacked(&self.segments, number, curve.length), curve)
@@ -172,7 +171,6 @@ impl<'d> Plan<'d> {
     }
 }
 
-/// Returns a segment of this length.
 fn unpacked(segments: &[Packed], number: usize, length_mm: f64) -> Segment {
     let Packed {
         index,

@@ -8,7 +8,6 @@ pub trait Plant {
     /// State of the plant.
     type State;
 
-    /// Returns the state.
     fn state(&self) -> Self::State;
 
     /// Restores a state.

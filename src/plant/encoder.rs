@@ -53,7 +53,6 @@ impl Encoder {
     }
 }
 
-/// Returns the quarter of a position.
 fn quarter(position_counts: f64) -> f64 {
     let nearest = (position_counts + 0.5).floor();
     // Rounding may move the sum past the end of a quarter.

@@ -58,7 +58,6 @@ impl Time {
 pub enum UnitFrom {
     /// [`Columns::time_unit_s`](super::Columns::time_unit_s).
     Given,
-    /// The header.
     Header,
     /// The median step between two times.
     Step,

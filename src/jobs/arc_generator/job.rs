@@ -15,7 +15,6 @@ use crate::path::record_writer::RecordWriter;
 /// full then.
 const HEAD_START: usize = 16;
 
-/// Returns the generator for the settings.
 #[must_use]
 pub fn arc_generator(settings: &Settings) -> ArcGenerator {
     ArcGenerator::new(settings.rounding, settings.blend)
@@ -40,7 +39,6 @@ pub struct Played {
     pub commands: Vec<Command>,
     /// Number of commands.
     pub samples: u64,
-    /// Last command.
     pub last: Option<Command>,
     /// True if a sampling time began before its point was ready.
     pub late: bool,

@@ -30,7 +30,6 @@ pub struct Segment {
     pub piece: usize,
     /// Index of the piece into which it blends.
     pub next_piece: Option<usize>,
-    /// True if it ends at rest.
     pub ends_at_rest: bool,
 }
 
@@ -75,7 +74,6 @@ pub enum Kind {
     Arc = 2,
 }
 
-/// Report on a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PieceReport {
     /// Line of the piece in the input.
@@ -100,7 +98,6 @@ pub struct PieceReport {
     pub arc: Option<ArcReport>,
 }
 
-/// Report on an arc.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArcReport {
     /// Centre, axis, radius and angle.

@@ -13,7 +13,6 @@ pub type Points = Box<dyn Iterator<Item = [i64; COORDINATES]>>;
 pub struct Decoded {
     /// Kind: 0 blend, 1 line, 2 arc.
     pub kind: u64,
-    /// True if it ends at rest.
     pub ends_at_rest: bool,
     /// Number of samples.
     pub samples: u64,

@@ -21,7 +21,6 @@ const PATIENCE_S: f64 = 600.0;
 /// Input ports of a compensator.
 pub(super) type Ports = In<Value>;
 
-/// Returns the compensator for the settings.
 pub fn positioner(settings: &Settings) -> Compensator {
     let steps = settings.steps.iter();
     let codes = steps.map(|step| settings.code(step.lead_ms).unwrap_or(0));

@@ -3,7 +3,6 @@
 use crate::circuits::linear_interpolator::Rule;
 use std::ops::Range;
 
-/// Record of one scan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScanRecord {
     /// Tick of the command.

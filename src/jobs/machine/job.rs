@@ -13,7 +13,6 @@ use crate::jobs::trajectory_controller::job::patience;
 use crate::settings::JobError;
 use std::array::from_fn;
 
-/// Returns the machine for the settings.
 #[must_use]
 pub fn machine(settings: &Settings) -> Machine {
     let (lift, widths) = (settings.lift(), lead_angle::Widths::default());

@@ -110,7 +110,6 @@ pub struct PieceMeasured {
 /// Point beside the path at a sampling time or the end of a unit time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Beside {
-    /// Tick.
     pub tick: u64,
     /// Index of the piece.
     pub piece: usize,

@@ -33,7 +33,6 @@ pub struct Order {
 /// Parameters of an arc, as words of [`ArcMove`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Arc {
-    /// Radius.
     pub radius: u64,
     /// Start angle.
     pub angle: u64,

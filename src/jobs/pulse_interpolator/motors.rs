@@ -38,7 +38,6 @@ impl Beside for StepMotors {
     type Signals<V: View> = StepMotorsSignals<V>;
 }
 
-/// Report on a motor.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotorReport {
     /// Greatest distance between rotor and field, in full steps.

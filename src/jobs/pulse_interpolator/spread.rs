@@ -6,7 +6,6 @@ use super::step_dir::Driver;
 /// Observed axis: a motor driver without requirements, and the uniformity of its pulses.
 #[derive(Debug, Clone)]
 pub struct Paced {
-    /// Driver.
     pub driver: Driver,
     /// Pulses compared with uniform motion.
     pub spread: Spread,

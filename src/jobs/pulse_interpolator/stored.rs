@@ -42,7 +42,6 @@ pub enum StoredError {
     /// A pattern has other axes than the first.
     #[error("pattern {pattern} has {axes} axes, the first has {first}")]
     Axes {
-        /// Pattern.
         pattern: usize,
         /// Number of its axes.
         axes: usize,
@@ -52,7 +51,6 @@ pub enum StoredError {
     /// The memory is full.
     #[error("pattern {pattern} has {units} unit times where {room} are free")]
     Full {
-        /// Pattern.
         pattern: usize,
         /// Number of its unit times.
         units: usize,

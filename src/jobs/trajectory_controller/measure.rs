@@ -37,7 +37,6 @@ pub struct Deviation {
 pub struct Peak {
     /// Value in mm.
     pub mm: f64,
-    /// Period.
     pub period: usize,
     /// Tick of the period.
     pub tick: u64,
@@ -69,7 +68,6 @@ pub struct Measured {
     pub model: Errors,
     /// Errors of the motors, by their encoders.
     pub motor: Errors,
-    /// Errors of the loads.
     pub load: Errors,
     /// Greatest torque of each axis, in words.
     pub torque: Vec<i64>,

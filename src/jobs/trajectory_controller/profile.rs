@@ -11,7 +11,6 @@ pub struct Cubic {
     pub v: f64,
     /// Acceleration at the start.
     pub a: f64,
-    /// Jerk.
     pub jerk: f64,
 }
 

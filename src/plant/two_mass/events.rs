@@ -65,7 +65,6 @@ impl Guard {
         self.by_twist * (x[0] - x[1]) + self.by_speed[0] * x[2] + self.by_speed[1] * x[3]
     }
 
-    /// Returns the value.
     #[inline]
     pub fn value(&self, x: &State) -> f64 {
         self.part(x) + self.rest

@@ -72,7 +72,6 @@ impl<'p, 'd> Demands<'p, 'd> {
         self.sampler.turns(span_s, turns);
     }
 
-    /// Returns the demand at a time.
     pub(super) fn at_time(&mut self, time_s: f64) -> Result<Demand, TableError> {
         let sample = self.sampler.at(time_s);
         Ok(Demand {

@@ -9,9 +9,7 @@ use crate::settings::SettingError;
 /// Ratio of two whole numbers above 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Ratio {
-    /// Numerator.
     pub num: u32,
-    /// Denominator.
     pub den: u32,
 }
 
