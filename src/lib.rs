@@ -48,7 +48,7 @@
 //!
 //! # Build my own circuit
 //!
-//! A watchdog: `bark` goes high after `limit` ticks without a `kick`. [`check::reach`] tries every
+//! A watchdog: `bark` goes high after `limit` ticks without `alive`. [`check::reach`] tries every
 //! input in every reachable state.
 //!
 //! ```
