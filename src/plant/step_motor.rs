@@ -1,4 +1,4 @@
-//! Hybrid stepper motor with its driver: the magnet of a rotor in a field that rotates in steps.
+//! Hybrid step motor with its driver: the magnet of a rotor in a field that rotates in steps.
 //!
 //! ```text
 //! J·dω/dt = T·sin(p·(φ − θ)) − D·ω − friction        p = full steps a turn / 4
@@ -21,7 +21,7 @@ const MOST_PARTS: f64 = 1000.0;
 /// Number of free oscillations in which a rotor comes to rest, if it does.
 const SWINGS: f64 = 200.0;
 
-/// Parameters of stepper motor, driver and load of one axis.
+/// Parameters of step motor, driver and load of one axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepMotorParameters {
     /// Greatest torque at standstill, in N·m.
@@ -79,7 +79,7 @@ impl StepMotorParameters {
     }
 }
 
-/// Stepper motor, stepped once per reference tick.
+/// Step motor, stepped once per reference tick.
 #[derive(Debug, Clone)]
 pub struct StepMotor {
     /// Driver steps per full step.

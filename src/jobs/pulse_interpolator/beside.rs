@@ -227,7 +227,7 @@ impl Bench<'_> {
     }
 }
 
-/// Plays moves on the conventional device; `observer` sees it too. Stepper motors on its drivers
+/// Plays moves on the conventional device; `observer` sees it too. Step motors on its drivers
 /// are beside it in the waves ([`StepMotors`]).
 ///
 /// # Errors

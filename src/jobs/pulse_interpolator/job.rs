@@ -231,7 +231,7 @@ pub fn play_by(
     })
 }
 
-/// Plays as [`play_by`] does, with stepper motors on the drivers, which are beside the group in
+/// Plays as [`play_by`] does, with step motors on the drivers, which are beside the group in
 /// the waves ([`StepMotors`]).
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! Stepper motors on the drivers of a group, in the waves beside it.
+//! Step motors on the drivers of a group, in the waves beside it.
 
 use crate::circuits::pulse_interpolator::AXIS_NAMES;
 use crate::hdl::{Beside, Value, View, signals};
@@ -7,7 +7,7 @@ use crate::plant::{StepMotor, StepMotorParameters};
 use crate::settings::SettingError;
 
 signals! { for StepMotors as _c;
-    /// True motion of a stepper motor.
+    /// True motion of a step motor.
     pub struct StepMotorSignals {
         /// Position in 1/256 of a step of the driver.
         pub position: I(48) as Analog,
@@ -26,7 +26,7 @@ signals! { for StepMotors as c;
     }
 }
 
-/// Stepper motors beside the circuit on whose drivers they are.
+/// Step motors beside the circuit on whose drivers they are.
 #[derive(Debug, Clone, Copy)]
 pub struct StepMotors {
     /// Number of motors.
