@@ -75,7 +75,7 @@ fn plain(path: &Path) -> PathBuf {
 }
 
 /// The documents at the root and the notes, by path.
-fn documents() -> Vec<(String, String)> {
+pub fn documents() -> Vec<(String, String)> {
     let own = ["README.md", "CHANGELOG.md"].iter().filter_map(|name| {
         let text = fs::read_to_string(Path::new(ROOT).join(name)).ok()?;
         Some(((*name).to_owned(), text))

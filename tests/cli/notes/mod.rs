@@ -5,6 +5,7 @@ mod blends;
 mod catalogue;
 mod charts;
 mod connections;
+mod figures;
 mod generated;
 mod glossary;
 mod keys;
