@@ -120,7 +120,7 @@ fn job_stepped(bencher: divan::Bencher<'_, '_>, times: u32) {
         .bench_local(|| play(&group, &table, &mut ()).expect("no observer objects"));
 }
 
-/// The same.
+/// The clock, as a multiple of the 100 kHz of the scenario; idle ticks are skipped.
 #[divan::bench(args = [1, 10, 100])]
 fn job_fast_forward(bencher: divan::Bencher<'_, '_>, times: u32) {
     let table = bracket(times);

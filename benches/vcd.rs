@@ -1,6 +1,6 @@
-//! What a dump costs a tick: fifty signals of which none or half change, and eight memories of
-//! 4,096 words; formatted alone, and into a file as VCD, as VCD with a thread that formats and writes,
-//! as FST.
+//! Cost of a dump per tick: fifty signals of which none or half change, and eight memories of
+//! 4,096 words; formatted alone, and into a file as VCD, as VCD with a thread that formats and
+//! writes, as FST.
 
 use divan::counter::ItemsCount;
 use motion_rtl::hdl::Observer;
@@ -23,7 +23,7 @@ struct Walker;
 signals! { for (Walker, Bank) as _c;
     /// Ports in.
     pub struct In {
-        /// How far it goes.
+        /// Size of a step.
         step: U(3),
         /// Upwards.
         up: Bit,
@@ -35,14 +35,14 @@ signals! { for Walker as _c;
     pub struct Reg {
         /// Where it is.
         level: I(9) as Analog,
-        /// How often it came round.
+        /// Number of wraps.
         phase: U(2) as States(PHASES),
     }
     /// Nets.
     pub struct Net {
-        /// Where it goes.
+        /// Next level.
         next_level: I(9),
-        /// It comes round.
+        /// The level wraps.
         wrapped: Bit,
     }
 }
@@ -72,7 +72,7 @@ struct Bank;
 signals! { for Bank as _c;
     /// The parts.
     pub struct Parts {
-        /// They.
+        /// The parts.
         part: [Part<Walker>(Walker); 8],
     }
 }
@@ -97,17 +97,17 @@ signals! { for Store as _c;
     pub struct StoreIn {
         /// The word is written.
         write: Bit,
-        /// It, and its address in its lower bits.
+        /// The word, with its address in its lower bits.
         word: U(24),
     }
     /// Memories.
     pub struct StoreReg {
-        /// They.
+        /// The memories.
         word: [Ram(12, 24); 8],
     }
     /// Nets.
     pub struct StoreNet {
-        /// Where it is written.
+        /// Write address.
         address: U(12),
     }
 }

@@ -61,7 +61,7 @@ fn side_by_side(bencher: divan::Bencher<'_, '_>, threads: usize) {
 }
 
 fn main() {
-    // What tests the benches has no use for a comparison that takes minutes.
+    // A test of the benches does not need a comparison that takes minutes.
     let asked = |wanted| std::env::args().any(|argument| argument == wanted);
     if asked("--bench") && !asked("--test") {
         match verilated::is_installed() {

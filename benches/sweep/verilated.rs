@@ -1,4 +1,4 @@
-//! The same cases as a loop around the exported Verilog, compiled by Verilator, in turn with ours.
+//! The cases as a loop around the exported Verilog, compiled by Verilator, in turn with ours.
 
 use super::{FIRST, SCANS_A_CASE, integrator, law, threads};
 use motion_rtl::check::{Law, Swept, sweep};
@@ -21,7 +21,7 @@ const SIDE_BY_SIDE: u64 = 1 << 20;
 /// `verilated.mk` has `-Os` of its own behind what `-CFLAGS` says.
 const LEVELS: [&str; 3] = ["OPT_FAST=-O3", "OPT_SLOW=-O3", "OPT_GLOBAL=-O3"];
 
-/// Whether `verilator` is found and starts.
+/// Returns true if `verilator` is found and starts.
 pub fn is_installed() -> bool {
     let version = Command::new("verilator").arg("--version").output();
     version.is_ok_and(|version| version.status.success())

@@ -41,7 +41,7 @@ pub enum Clock {
     Fast,
 }
 
-/// What makes the clock of a scenario a fast one.
+/// Settings that make the clock of a scenario a fast one.
 const FAST: [(&str, &[&str]); 6] = [
     (
         "bracket",

@@ -37,7 +37,7 @@ const TRACED: u64 = 100_000;
 /// Runs of each, in turn. Odd, and many: what else runs on a shared machine changes within seconds.
 const ROUNDS: usize = 15;
 
-/// What is asked for on the command line.
+/// Options of the command line.
 struct Asked {
     /// Few ticks, to see that all of it works.
     quick: bool,
@@ -66,7 +66,7 @@ struct Times {
     ours: Vec<f64>,
 }
 
-/// Of an odd number of times.
+/// Median of an odd number of times.
 fn median(times: &[f64]) -> f64 {
     let mut times = times.to_vec();
     times.sort_by(f64::total_cmp);

@@ -68,7 +68,7 @@ impl<C: Circuit> Observer<C> for Checksum<'_> {
     }
 }
 
-/// How a run is made.
+/// Way of running a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
     /// Tick by tick, in compiled code.

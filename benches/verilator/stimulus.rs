@@ -1,4 +1,4 @@
-//! What goes into a circuit during a job, recorded once and applied to both models.
+//! Inputs of a circuit during a job, recorded once and applied to both models.
 
 use motion_rtl::hdl::{Circuit, Declarations, Observer, Role, RunError, Sample, Simulator};
 use std::fs::File;
@@ -45,7 +45,7 @@ const END: Change = Change {
 #[derive(Debug)]
 pub struct Recorder {
     stimulus: Stimulus,
-    /// Of the circuit's own ports in: others stand beside it.
+    /// Values of the circuit's own input ports.
     words: Vec<u64>,
     most: u64,
 }
@@ -99,8 +99,8 @@ impl<'a> Replay<'a> {
         }
     }
 
-    /// Sets what changes at the tick to come; for how many ticks it is held. That tick is in those
-    /// held before, or the one after them.
+    /// Sets the inputs that change in the next tick; returns for how many ticks they are held.
+    /// That tick must be one of those held before, or the one after them.
     pub fn held<C: Circuit>(&mut self, at: &mut Simulator<C>) -> Result<u64, RunError> {
         while let Some((change, rest)) = self.changes.split_first() {
             let to_come = u64::from(change.tick) - at.tick();
@@ -113,7 +113,7 @@ impl<'a> Replay<'a> {
         Ok(u64::MAX)
     }
 
-    /// The same for one tick.
+    /// Sets the inputs that change in the next tick; returns at most 1 tick.
     pub fn tick<C: Circuit>(&mut self, at: &mut Simulator<C>) -> Result<u64, RunError> {
         Ok(self.held(at)?.min(1))
     }

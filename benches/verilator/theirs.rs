@@ -12,13 +12,13 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::time::Duration;
 use tempfile::TempDir;
 
-/// Whether `verilator` is found and starts.
+/// Returns true if `verilator` is found and starts.
 pub fn is_installed() -> bool {
     let version = Command::new("verilator").arg("--version").output();
     version.is_ok_and(|version| version.status.success())
 }
 
-/// What Verilator builds.
+/// Trace format of a Verilator build.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Build {
     Untraced,
@@ -30,9 +30,9 @@ pub enum Build {
 /// often does.
 pub struct Builds {
     directory: TempDir,
-    /// What the C++ compiler is asked for.
+    /// Optimisation option of the C++ compiler.
     level: &'static str,
-    /// What each was made from, and its directory.
+    /// Sources and directory of each build.
     built: RefCell<Vec<(Build, Vec<SourceFile>, PathBuf)>>,
 }
 
@@ -188,7 +188,7 @@ const OPTIONS: [&str; 13] = [
     "--x-initial",
     "fast",
     "--noassert",
-    // Of a loop that is not unrolled Verilator takes no non-blocking assignment.
+    // Verilator takes no non-blocking assignment in a loop that is not unrolled.
     "--unroll-count",
     "256",
     "-Wno-fatal",

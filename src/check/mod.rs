@@ -1,6 +1,6 @@
 //! Exhaustive proofs, shortest counterexamples, comparison of two circuits.
 //!
-//! [`reach`] visits every state that a circuit can reach from power-on under any input, and checks
+//! [`reach()`] visits every state that a circuit can reach from power-on under any input, and checks
 //! [`Invariants`] on every transition. At widths small enough for that to finish, it proves them
 //! for all input sequences of any length. [`sweep()`] checks a [`Law`] on every case of a finite
 //! space, for words that are too wide for that; it evaluates many cases at once. [`Monitor`]

@@ -135,7 +135,7 @@ impl Default for Settings {
 ///
 /// The waveform reader panics on some malformed files. Such a panic is caught and becomes an
 /// error, if panics unwind. To suppress its output, the first call of this function or of
-/// [`template`] in a process installs a panic hook that is silent meanwhile and otherwise calls
+/// [`template()`] in a process installs a panic hook that is silent meanwhile and otherwise calls
 /// the one before it.
 ///
 /// # Errors

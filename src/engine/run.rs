@@ -351,8 +351,8 @@ impl Engine {
         }
     }
 
-    /// Calls `see` with the index in [`Layout::watched`](super::Layout::watched) of everything
-    /// that has changed since the tick before.
+    /// Calls `see` with the index in [`Layout::watched`](super::layout::Layout::watched) of
+    /// everything that has changed since the tick before.
     #[inline]
     pub(crate) fn changed(&self, mut see: impl FnMut(usize)) {
         let layout = &self.program.plan.layout;

@@ -2,9 +2,9 @@
 //!
 //! A [`Circuit`] declares its signals as records ([`signals!`]), whose widths are expressions over
 //! its fields. One function, [`tick`](Circuit::tick), gives the nets and the next values of the
-//! registers. That function runs once, when the circuit is [elaborated](elaborate). Its words are
-//! handles to nodes of a netlist, so there is no `if` on a [`Bit`], only [`Bit::mux`]. The netlist
-//! is the only meaning of a circuit: it is run, proved and printed as Verilog.
+//! registers. That function runs once, when the circuit is [elaborated](fn@elaborate). Its words
+//! are handles to nodes of a netlist, so there is no `if` on a [`Bit`], only [`Bit::mux`]. The
+//! netlist is the only meaning of a circuit: it is run, proved and printed as Verilog.
 //!
 //! Words wrap, as registers do. Operands have the same width; a constant takes the width of the
 //! word beside it. All mistakes are found at once and reported with file, line and column

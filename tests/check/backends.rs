@@ -14,7 +14,7 @@ struct Held<'m> {
     what: &'static str,
     engine: Engine,
     leaves: &'m [usize],
-    /// It is compiled at this tick.
+    /// Tick at which the model is compiled.
     compiles: Option<u64>,
 }
 

@@ -40,7 +40,7 @@ impl Circuit for Up {
 /// Counts modulo 5 too, as what is left to count; it shows the count on a net, two bits wider.
 #[derive(Debug, Clone)]
 pub struct Down {
-    /// What is added on top of the count where it is 4.
+    /// Error added to the count where it is 4.
     pub flaw: u64,
 }
 
@@ -167,7 +167,7 @@ impl Circuit for Table {
     }
 }
 
-/// So many stages of 13 bits and 12 more bits; it takes words of `width` bits.
+/// `stages` stages of 13 bits and 12 more bits; takes words of `width` bits.
 #[derive(Debug, Clone)]
 pub struct Wide {
     pub width: usize,

@@ -143,7 +143,7 @@ fn circuits_without_a_name_in_common_have_no_partners() {
         Lockstep::by_name(&pair).unwrap_err(),
         LockstepError::Unpaired(alone.into())
     );
-    // They have no ports in common either.
+    // The two have no ports in common either.
     let error = Simulator::new(&pair).unwrap_err().to_string();
     let what = "pair: the ports in of both are not the same: enable of 1; word of 1";
     assert!(error.ends_with(what), "{error}");

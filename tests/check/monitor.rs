@@ -1,4 +1,4 @@
-//! The same invariants along simulated runs.
+//! Invariants along simulated runs.
 
 use crate::circuits::*;
 use motion_rtl::check::{Invariants, Monitor, Random, require};

@@ -21,7 +21,7 @@ fn space<C: Circuit>(circuit: &C) -> Proof {
     reach(circuit, &none).run().unwrap().proof().unwrap()
 }
 
-/// What a search finds as gates and as a simulation.
+/// Result of a search, which gates and simulation agree on.
 fn both<C: Circuit>(circuit: &C, invariants: &Invariants<'_, C>, limit: u32) -> String {
     let search = || reach(circuit, invariants).limit(limit);
     let gates = search().run().unwrap().to_string();

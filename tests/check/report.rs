@@ -1,4 +1,4 @@
-//! What a counterexample prints.
+//! Printed counterexamples.
 
 use crate::circuits::*;
 use expect_test::expect;
@@ -76,7 +76,7 @@ fn a_counterexample_is_saved_as_waves() {
     assert_eq!(names, ["lock_shut__always.vcd", "lock_shut__always.gtkw"]);
     let waves = std::fs::read_to_string(&paths[0]).unwrap();
     assert!(waves.contains("right"), "{waves}");
-    // It makes the directory, but not where a file stands.
+    // Saving creates the directory, but not in place of a file.
     assert!(found.save(&circuit, clock, &dir.path().join("new")).is_ok());
     assert!(found.save(&circuit, clock, &paths[0]).is_err());
 }

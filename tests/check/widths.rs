@@ -3,7 +3,7 @@
 use motion_rtl::registry::{CATALOGUE, Entry, Refused, Request};
 use rayon::prelude::*;
 
-/// How a circuit of these widths ends: made, or refused for its widths.
+/// Makes a circuit of these widths: true if made, false if refused for its widths.
 fn made(entry: &Entry, request: &Request) -> Result<bool, String> {
     match entry.requested(request) {
         Ok(circuit) => match circuit.layout() {
@@ -31,7 +31,7 @@ fn every_circuit_is_elaborated_at_every_width() {
         .par_iter()
         .flat_map_iter(|entry| {
             (0..=64).filter_map(move |width| match made(entry, &of_width(width)) {
-                // What has widths has these.
+                // Every circuit that has widths has these.
                 Ok(false) if (4..=12).contains(&width) && !entry.widths().is_empty() => {
                     Some(format!("{} is not there at width {width}", entry.name))
                 }

@@ -1,4 +1,4 @@
-//! What the tests of the pulse interpolator share.
+//! Helpers of the pulse interpolator's tests.
 
 use motion_rtl::circuits::pulse_interpolator::{Group, Pattern, Variant, Widths};
 use motion_rtl::hdl::{Sample, Simulator, StopWhen, zero};

@@ -16,9 +16,9 @@ const ANGLE: f64 = 32.0;
 struct Arc {
     /// In steps.
     radius: f64,
-    /// Of the first point.
+    /// Angle of the first point.
     angle: u64,
-    /// Of a unit time.
+    /// Angle turned in a unit time.
     turn: u64,
     units: u64,
     straight: [i64; 2],

@@ -18,7 +18,7 @@ fn idle() -> Port {
     zero(&Group::new(1, small(), Safe, 1))
 }
 
-/// What one tick shows of the group.
+/// Signals of the group in a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Seen {
     unit_rst: bool,

@@ -14,12 +14,12 @@ const FULL: i64 = 32_767;
 /// A scan of 1 ms.
 const SCAN: u64 = 200;
 
-/// What a scan saw: the nets of its tick.
+/// Nets in the tick of a scan.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
     deviation: i64,
     in_position: bool,
-    /// What the D/A converter held until this scan.
+    /// Word of the D/A converter until this scan.
     speed_ref: i64,
     saturated: bool,
     lost: bool,

@@ -15,7 +15,7 @@ const NOTE: &str = "rtl_notes/golden_model.md";
 const FILES: &str = "rtl_notes/golden_model";
 const GHOSTS: [&str; 3] = ["unit_law.pulses", "unit_law.lagged", "unit_law.counted"];
 
-/// What the commands of the note mean here: the program as it was built, and no window.
+/// Shell functions for the commands of the note: the program as it was built, and no window.
 const SHELL: &str = r#"
 cargo() {
     [[ "$1 $2 $3" == "run --release --" ]] || { echo "cargo $*: not known to this test"; exit 9; }
@@ -168,7 +168,7 @@ fn the_note_shows_what_its_commands_print() {
     let folder = folder();
     let fresh = fresh(&note, folder.path());
 
-    // What it must show, whatever stands in it.
+    // The results that the run must have, whatever the note says.
     let build = folder.path().join("build");
     let golden = build.join("unit_law/unit_law.vcd");
     let held = |run: &str, map: &str| {
@@ -246,8 +246,8 @@ const RESETS: [(&str, &str, &str); 5] = [
     ("step_channel.v", "if (srst)", "if (1'b0)"),
 ];
 
-/// How many of the resets could be left out unseen, on the stimulus of this command; and the ticks
-/// in which that has a reset.
+/// Number of resets that could be left out unnoticed, on the stimulus of this command; and the
+/// ticks in which that has a reset.
 fn unseen(command: &str) -> (usize, Vec<usize>) {
     let folder = folder();
     let (said, well) = shell(folder.path(), command);

@@ -14,7 +14,7 @@ fn hold(scenario: &str, sets: &[&str]) {
     of(&group, scenario, sets, 9);
 }
 
-/// The same of a circuit that takes so many modules.
+/// Checks a scenario of a circuit of `count` modules.
 fn of<C: Circuit>(circuit: &C, scenario: &str, sets: &[&str], count: usize) {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();

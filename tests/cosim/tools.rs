@@ -66,7 +66,7 @@ impl Simulator {
                     "--trace-underscore",
                     "--trace-max-array",
                     "65536",
-                    // It runs for less time than g++ takes to optimise it.
+                    // The model runs for less time than g++ takes to optimise it.
                     "-MAKEFLAGS",
                     "OPT_FAST=-O0",
                     "-MAKEFLAGS",

@@ -12,7 +12,7 @@ use std::path::Path;
 fn yosys(circuit: &dyn AnyModel, script: impl Fn(&str) -> String) -> String {
     let directory = tempfile::tempdir().unwrap();
     let mut modules = write(directory.path(), &circuit.verilog().unwrap());
-    // What Yosys makes depends on the order of the files: that of their names, as of `*.v`.
+    // The result of Yosys depends on the order of the files: that of their names, as of `*.v`.
     modules.sort();
     let script = script(&modules.join(" "));
     run(directory.path(), "yosys", &["-p", &script])
@@ -144,7 +144,7 @@ fn induction() -> String {
     text
 }
 
-/// What stands between the marks of a note, against what the tools say now.
+/// Compares the text between the marks of a note with the tools' present output.
 #[track_caller]
 fn measured(what: &str, fresh: impl FnOnce(&str) -> String) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -181,7 +181,7 @@ fn assertions_are_proved_by_induction_at_full_width() {
     measured("induction", |_| table);
 }
 
-/// What Yosys says of the assertions of a circuit in which `from` is replaced by `to`.
+/// Checks that Yosys refutes the assertions of a circuit in which `from` is replaced by `to`.
 #[track_caller]
 fn refute(circuit: &dyn AnyModel, [from, to]: [&str; 2]) {
     let directory = tempfile::tempdir().unwrap();

@@ -77,7 +77,7 @@ impl Wanted {
         }
     }
 
-    /// How far a point is outside the circle, and above its plane.
+    /// Distance of a point outside the circle, and above its plane.
     fn off(&self, point: Point) -> [f64; 2] {
         let vector = sub(point, self.centre);
         let height = (0..3).map(|k| vector[k] * self.axis[k]).sum::<f64>();
@@ -145,7 +145,7 @@ proptest! {
         let seen = played(&records, rounding);
         prop_assert_eq!(&seen, &commands(&records, &FULL, rounding).collect::<Vec<_>>());
 
-        // It begins and ends on its points.
+        // The arc begins and ends on its points.
         let [from, _, to] = wanted.points;
         let whole = |point: Point| point.map(|x| (x * 65_536.0).round() / 65_536.0);
         let counts = |point: Point| whole(point).map(|x| (x + 0.5).floor() as i64);

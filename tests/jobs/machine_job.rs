@@ -54,7 +54,7 @@ fn ends_at(played: &Played, settings: &Settings, mm: [f64; 2]) {
     assert_eq!(played.stepper, steps, "steppers");
 }
 
-/// What holds in every tick of a run, and the steppers' pulses.
+/// Invariants of every tick of a run, and the pulses of the step motors.
 #[derive(Default)]
 struct Watch {
     pulses: Vec<(u64, usize, bool)>,

@@ -1,4 +1,4 @@
-//! How far both machines are off the path, and why: runs written by hand, of known distances.
+//! Path errors of both machines, with their reasons: runs written by hand, of known distances.
 
 use motion_rtl::input::{Drawing, read_text};
 use motion_rtl::jobs::machine::job::{Frame, Played, Timed};

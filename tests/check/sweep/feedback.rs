@@ -24,7 +24,7 @@ signals! { for Mutant as c;
     pub struct In { case: Case(&c.0) as Flat }
     /// The law.
     pub struct Parts { law: Part<FeedbackSweep>(c.0.clone()) }
-    /// What is seen.
+    /// Observed signals.
     pub struct Net { fed: Fed(&c.0) as Flat }
 }
 

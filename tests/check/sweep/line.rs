@@ -18,7 +18,7 @@ signals! { for Mutant as c;
     pub struct In { line: Line(&c.0) as Flat }
     /// The law.
     pub struct Parts { law: Part<LineSweep>(c.0.clone()) }
-    /// What is seen.
+    /// Observed signals.
     pub struct Net { reached: Reached(&c.0) as Flat }
 }
 

@@ -18,7 +18,7 @@ signals! { for Operations as c;
 }
 
 impl Operations {
-    /// What the results are in numbers.
+    /// Returns the results by arithmetic with numbers.
     fn expected(&self, x: u64, y: u64, choose: bool) -> Vec<u64> {
         let of = Numbers::new((self.width, x), (self.width, y), choose);
         let list = self.list.iter();
@@ -175,7 +175,7 @@ fn words_side_by_side_do_what_one_does() {
     }
 }
 
-/// What was stored is read; wrong is it to expect another word for `wrong`.
+/// Law that a stored word is read; wrong for `wrong`, where another word is expected.
 #[derive(Debug, Clone)]
 struct Stores {
     wrong: u64,

@@ -21,7 +21,7 @@ pub struct Operation<W> {
 }
 
 impl<W> Operation<W> {
-    /// What it is of these numbers, modulo 2^width.
+    /// Returns the result of these numbers, modulo 2^width.
     pub fn expected(&self, of: &Numbers) -> u64 {
         wrap((self.number)(of), self.width)
     }
@@ -63,7 +63,7 @@ impl<W> List<W> {
 }
 
 impl List<U> {
-    /// The same with a bit.
+    /// Adds an operation whose result is a bit.
     pub fn bit(
         &mut self,
         name: impl Into<String>,
@@ -86,7 +86,7 @@ impl List<I> {
     }
 }
 
-/// What operations are done with: two words, and the same bits as signed ones.
+/// Operands: two words, and the same bits as signed ones.
 #[derive(Debug)]
 pub struct Words {
     pub a: U,
@@ -96,7 +96,7 @@ pub struct Words {
     pub choose: Bit,
 }
 
-/// The same as numbers.
+/// Operands as numbers.
 #[derive(Debug)]
 pub struct Numbers {
     pub a: i128,
@@ -107,7 +107,7 @@ pub struct Numbers {
 }
 
 impl Numbers {
-    /// Of the bits of two words.
+    /// Creates the operands from the bits of two words.
     pub fn new((n, a): (usize, u64), (m, b): (usize, u64), choose: bool) -> Self {
         Numbers {
             a: a.into(),
@@ -160,7 +160,7 @@ impl Circuit for Operations {
 impl Operations {
     fn new(n: usize, m: usize) -> Self {
         let (mut unsigned, mut signed) = (unsigned::of_two(n, m).0, signed::of_two(n, m).0);
-        // Those on one word once.
+        // Operations on one word are added once.
         if m == 1 {
             unsigned.extend(unsigned::of_one(n).0);
             signed.extend(signed::of_one(n).0);

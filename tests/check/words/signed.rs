@@ -1,4 +1,4 @@
-//! What is done with signed words.
+//! Operations on signed words.
 
 use super::{List, Words, unsigned::distances, wrap_signed};
 use motion_rtl::hdl::{Cut, I};

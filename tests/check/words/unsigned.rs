@@ -1,4 +1,4 @@
-//! What is done with unsigned words and bits.
+//! Operations on unsigned words and bits.
 
 use super::{List, Numbers, Words, wrap};
 use motion_rtl::hdl::{Bit, Cut, I, U};
@@ -84,7 +84,7 @@ pub fn of_one(n: usize) -> List<U> {
     list.add("a >> far", n, |i| i.a.shift_right(usize::MAX), |_| 0);
     for low in 0..n {
         for width in 1..=n - low {
-            // Of wide words those at the ends.
+            // In wide words, slices at the ends only.
             if n <= 6 || low < 2 || width < 2 || low + width == n {
                 let name = format!("{width} bits from {low} up");
                 list.add(

@@ -25,7 +25,7 @@ pub fn quartic([before, at, behind]: [i128; 3], samples: i128, sample: i128) -> 
     before * m3 * m + 2 * (at - before) * i * m3 + (before - 2 * at + behind) * (2 * m - i) * i3
 }
 
-/// What the engine shows after its loads and after each of `steps` steps: value as whole and part,
+/// Outputs of the engine after its loads and after each of `steps` steps: value as whole and part,
 /// and the nearest.
 fn run(
     widths: Widths,

@@ -1,4 +1,4 @@
-//! What the circuits do, as programs with wide numbers.
+//! Reference programs for the circuits, with wide numbers.
 
 /// First value and differences of a quartic, from its first five values.
 pub fn differences(at: impl Fn(i128) -> i128) -> [i128; 5] {

@@ -163,7 +163,7 @@ impl Host<'_> {
     }
 }
 
-/// What a run shows: the ticks with new commands, the commands, `late` and `starved` at the end.
+/// Results of a run: the ticks with new commands, the commands, `late` and `starved` at the end.
 #[derive(Debug)]
 struct Run {
     commands: Vec<(u64, [i128; 3])>,
@@ -338,7 +338,7 @@ fn halt_leaves_the_commands_where_they_are() {
                 assert_eq!(*held.get_or_insert(command), command);
             }
         }
-        // What waited is forgotten, and a new path runs as from power-on.
+        // Waiting segments are discarded, and a new path runs as from power-on.
         assert!(!simulator.see(|s| s.w.starved));
         host = Host {
             segments: &segments,

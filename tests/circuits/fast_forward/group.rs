@@ -53,7 +53,7 @@ fn duration(most: u64) -> impl Strategy<Value = u64> {
     prop_oneof![Just(0), 1..8u64, 50..400u64, 0..=most]
 }
 
-/// What the control computer does: the ticks it waits before, and its outputs then.
+/// Action of the control computer: the ticks it waits before, and its outputs then.
 fn act() -> impl Strategy<Value = (u64, Port)> {
     let words = (
         0..WORDS,

@@ -11,7 +11,7 @@ mod ours;
 #[path = "../../../benches/verilator/stimulus.rs"]
 #[allow(dead_code)]
 mod stimulus;
-/// What [`ours`] asks for of the Verilated model.
+/// Items of the Verilated model that [`ours`] needs.
 mod theirs {
     pub const ROTATION: u32 = 7;
 }

@@ -25,7 +25,7 @@ fn comparator(position: usize, comparing: Comparing) -> Simulator<Comparator> {
     Simulator::new(&circuit).unwrap()
 }
 
-/// Whether a step from `from` to `to` gets to an image of the target, or over it.
+/// Returns true if a step from `from` to `to` reaches or passes an image of the target.
 fn reaches(from: i64, to: i64, target: i64) -> bool {
     let mut images = (-4..=4).map(|turn| target + turn * RANGE);
     images.any(|image| (from < image && to >= image) || (from > image && to <= image))
@@ -78,7 +78,7 @@ fn a_crossing_is_counted_once_in_either_direction() {
     );
 }
 
-/// How many of `speed` neighbouring targets are hit at that speed.
+/// Returns how many of `speed` neighbouring targets are hit at that speed.
 fn hits(comparing: Comparing, speed: i64) -> usize {
     let ready = comparator(12, comparing);
     let mut targets = 500..500 + speed;
@@ -100,7 +100,7 @@ fn hits(comparing: Comparing, speed: i64) -> usize {
     targets.by_ref().filter(hit).count()
 }
 
-/// As the text has it, a comparison for equality hits one target in v at v counts per CK.
+/// The text's comparison for equality hits one target in v at v counts per CK.
 #[test]
 fn equality_misses_what_crossing_finds() {
     for speed in 1..=60 {

@@ -5,7 +5,7 @@ use motion_rtl::circuits::lead_angle::correction::In;
 use motion_rtl::circuits::lead_angle::{Correction, Division, Function, Sign};
 use motion_rtl::hdl::Simulator;
 
-/// What came of a correction.
+/// Result of a correction.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
     /// Ticks from `complete` to `corrected`.
@@ -74,7 +74,7 @@ fn snapped(stages: u64, time: u64) -> u64 {
     }
 }
 
-/// Whether a function divides twice.
+/// Returns true if a function divides twice.
 fn twice(function: Function, overrun: i64, error: i64) -> bool {
     function == Function::SecondOrder && error.abs() < overrun.abs()
 }
@@ -194,7 +194,7 @@ fn next(ready: &Simulator<Correction>, time: u64, true_time: u64, speed: i64) ->
     seen.learned.expect("a time")
 }
 
-/// How many CKs apart two codes are at a time.
+/// Distance between two codes at a time, in CKs.
 fn pitch(time: u64) -> f64 {
     codes::grid(199)
         .iter()
@@ -318,7 +318,7 @@ struct Body {
 /// CKs until the brake bites.
 const DEAD_TIME: f64 = 120.0;
 
-/// How many stops of a step are looked at.
+/// Number of stops per step.
 const STOPS: usize = 10;
 
 impl Body {
@@ -360,9 +360,9 @@ impl Body {
     }
 }
 
-/// How each function after the first order compares with the one before it, over bodies and leads to
-/// begin with: in how many cases it settles earlier, at the same stop and later. Then the stops of
-/// all cases by each function.
+/// Compares each function after the first order with the one before it, over bodies and initial
+/// leads: in how many cases it settles earlier, at the same stop and later. Then the stops of all
+/// cases by each function.
 fn compared(bodies: &[Body], times: &[u64]) -> ([[usize; 3]; 2], [usize; 3]) {
     let functions = [Function::FirstOrder, Function::SecondOrder, Function::Exact];
     let ready = functions.map(|function| full(Sign::Converging, function));

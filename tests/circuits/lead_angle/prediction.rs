@@ -46,7 +46,7 @@ fn the_prediction_is_exact_on_the_ring_and_the_placements_agree() {
                 let lead = lead.step_with(&i, |now| now.w.lead).unwrap();
                 let predicted = position + ratio * way;
                 assert_eq!(lead, wrap(ratio * way, 8));
-                // The same lead comes of several ways.
+                // Several distances give the same lead.
                 if !placed_leads.insert((position, lead)) {
                     continue;
                 }
@@ -71,14 +71,14 @@ fn the_prediction_is_exact_on_the_ring_and_the_placements_agree() {
     }
 }
 
-/// What the circuit predicts for `time` CKs ahead from the positions of `count` CKs, the last of
+/// Prediction of the circuit for `time` CKs ahead from the positions of `count` CKs, the last of
 /// them 0, when all are in its history; a CK every tick.
 fn predicted(time: u64, count: i64, position: impl Fn(i64) -> i64) -> i64 {
     let circuit = TimeLead::new(199, 24, Memory::ShiftRegister);
     predicted_by(&circuit, time, count, position)
 }
 
-/// The same of another circuit.
+/// Prediction of another circuit, for the same positions.
 fn predicted_by(circuit: &TimeLead, time: u64, count: i64, position: impl Fn(i64) -> i64) -> i64 {
     predictions(circuit, time, [count, 1], position)[0]
 }
@@ -178,7 +178,7 @@ fn the_bound_is_reached() {
     }
 }
 
-/// What N is for: of a ten times longer memory without it the prediction is of a longer ago.
+/// Purpose of N: without it, with ten times the memory, the prediction uses older samples.
 #[test]
 fn a_long_memory_with_n_fixed_at_one_is_further_off_in_acceleration() {
     let long = TimeLead {
@@ -197,7 +197,7 @@ fn a_long_memory_with_n_fixed_at_one_is_further_off_in_acceleration() {
         });
         (errors.sum::<f64>() / 100.0).sqrt()
     };
-    // As the note has them.
+    // Values of the note.
     for (time, n, noted) in [
         (199, 1, [15.6, 15.6]),
         (398, 2, [47.2, 63.1]),

@@ -78,7 +78,7 @@ fn good(pitch: u64) -> Resolver {
 /// Conversions until the loop has settled, by 20 ticks.
 const SETTLED: u64 = 255 * 20;
 
-/// How far from a place to the next, the shorter way round.
+/// Distance from one place to another, the shorter way round.
 fn apart(one: i64, other: i64, all: i64) -> i64 {
     (one - other + all / 2).rem_euclid(all) - all / 2
 }

@@ -76,8 +76,8 @@ fn a_memory_of_a_product_gives_what_the_product_gives() {
     assert!(enough > 10_000 && led > 15_000, "{enough}, {led}");
 }
 
-/// Of every speed that the memory covers, and beyond: exact at the words, on a line between them, and
-/// off by no more than the bend of the function lets it.
+/// Checks every speed that the memory covers, and beyond: exact at the words, on a line between
+/// them, and off by no more than the curvature of the function allows.
 #[test]
 fn between_words_the_lead_is_on_a_line() {
     // Another function in either direction: f'' is 1/20 upwards, 1/50 downwards.

@@ -30,7 +30,7 @@ fn every_variant_is_proved() {
     }
 }
 
-/// What a program makes of a time for the time data is what the ratio logic makes of it.
+/// Programs and the ratio logic divide times alike.
 #[test]
 fn times_are_divided_as_the_ratio_logic_divides_them() {
     for stages in [3, 15, 199] {
@@ -58,7 +58,7 @@ signals! { for Beside as c;
     struct In {
         /// CK.
         ck: Bit,
-        /// What was sampled so far counts no more.
+        /// Discards the samples taken so far.
         restart: Bit,
         /// The position.
         position: I(c.form.position),
@@ -76,7 +76,7 @@ signals! { for Beside as c;
         /// The other form.
         form: Part<TimeLead>(c.form.clone()),
     }
-    /// What each of them gives.
+    /// Outputs of each form.
     struct Net {
         /// Dx(+Δt) of the embodiment.
         predicted: I(c.form.position),

@@ -9,7 +9,7 @@ use motion_rtl::circuits::lead_angle::{
 };
 use motion_rtl::hdl::{Image, Observer, Simulator, State, Value};
 
-/// What the outputs of a run are compared by.
+/// Outputs by which runs are compared.
 const OUTPUTS: [&str; 12] = [
     "position",
     "target",
@@ -201,7 +201,7 @@ fn every_form_is_the_embodiment_in_every_tick() {
     }
 }
 
-/// What forms have not.
+/// Combinations that forms do not have.
 #[test]
 fn a_form_says_what_it_has_not() {
     let refused = |form, memory, placement| {

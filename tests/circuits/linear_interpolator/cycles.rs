@@ -68,7 +68,7 @@ fn command(simulator: &Simulator<LinearInterpolator>) -> [i64; 2] {
     simulator.state(|now| [q.x, q.y].map(|at| now.get(at)))
 }
 
-/// What a tick shows.
+/// Outputs of a tick.
 struct Seen {
     start: bool,
     load: bool,
@@ -159,13 +159,13 @@ fn shapes() -> impl Iterator<Item = (u64, [u64; 2])> {
         .flat_map(move |speed| times.map(|times| (speed, times)))
 }
 
-/// Whether a point is where the rule puts the slave on the line from `from` by `delta`.
+/// Returns true if a point is where the rule puts the slave on the line from `from` by `delta`.
 fn on_the_line(rule: Rule, from: [i64; 2], delta: [i64; 2], point: [i64; 2]) -> bool {
     let master = usize::from(delta[0].abs() < delta[1].abs());
     on_the_line_of(master, rule, (from, delta), point)
 }
 
-/// The same with this master.
+/// Returns true if the point is right with this master.
 fn on_the_line_of(
     master: usize,
     rule: Rule,

@@ -214,7 +214,7 @@ fn unit_increments_draw_bresenhams_line() {
     }
 }
 
-/// What the text is silent of: B that is left by a cycle that was broken off.
+/// The text does not mention the B left by an aborted cycle.
 #[test]
 fn a_stale_remainder_ends_in_the_wrong_place() {
     let circuit = at_power_on(Rule::Floor);

@@ -30,7 +30,7 @@ impl Bench {
         }
     }
 
-    /// What the circuit shows in the tick to come.
+    /// Outputs of the circuit in the next tick.
     pub fn outputs(&self) -> Outputs {
         let q = self.simulator.registers().p.trapezoid.q;
         Outputs {

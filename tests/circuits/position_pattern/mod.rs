@@ -25,8 +25,8 @@ fn fits(value: i64, bits: u32) -> bool {
     value >= -1 << (bits - 1) && value < 1 << (bits - 1)
 }
 
-/// What holds of the positions of a cycle, the one at the start included; `whole` where it was not
-/// aborted. `bits` are those of positions and times.
+/// Checks the positions of a cycle, the one at the start included; `whole` where it was not
+/// aborted. `bits` are the widths of positions and times.
 fn check(ports: &Ports, bits: [u32; 2], positions: &[i64], whole: bool) {
     let plan = Plan::new(ports, bits);
     let [p, t] = bits;
@@ -260,7 +260,7 @@ fn an_abort_with_the_start_leaves_the_position_only() {
 /// Bits of positions and times.
 const FULL: [u32; 2] = [32, 12];
 
-/// As many scans as that are made of a cycle at most, then it is aborted.
+/// Largest number of scans of a cycle; then it is aborted.
 const SCANS: u64 = 300;
 
 fn at_full_width(ports: &Ports, most: u64) {

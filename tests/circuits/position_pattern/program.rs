@@ -1,7 +1,7 @@
 //! The position pattern generator as a program: a cycle is a list of weights, and every tick at
 //! which something happens is known beforehand.
 
-/// What is at the ports in during a tick.
+/// Input ports in a tick.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Ports {
     pub start: bool,
@@ -13,7 +13,7 @@ pub struct Ports {
     pub halt: bool,
 }
 
-/// What is at the ports out.
+/// Output ports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Outputs {
     pub position: i64,
@@ -45,7 +45,7 @@ impl Plan {
             true => rest.div_euclid(2 * speed) + i128::from(rest % (2 * speed) > 0),
             false => 0,
         };
-        // As many as are counted: it goes faster then.
+        // The count is limited: the cycle goes faster then.
         let steady = steady.min((1 << (p - 1)) - 1);
         let whole = up * down * (up + 2 * steady + down);
         Plan {
@@ -91,7 +91,7 @@ impl Plan {
         weights
     }
 
-    /// How far it is gone with weights of that sum.
+    /// Distance gone with weights of that sum.
     pub fn gone(&self, sum: i128) -> i128 {
         (self.distance.abs() * sum).div_euclid(self.whole) * self.distance.signum()
     }

@@ -42,7 +42,7 @@ pub const FAR: &[(&str, u32)] = &[
     ("position_control.amount", 15),
     ("position_loop.control.product", 47),
     ("position_loop.control.amount", 15),
-    // Of the words that the multiplier-divider shares, most steps use the lower part only; W and 2V
+    // Most steps use only the lower part of the words that the multiplier-divider shares; W and 2V
     // are even, always; long times are rarely prepared, and more rarely gone through.
     ("trapezoid.level", 17),
     ("trapezoid.steady_scans", 31),

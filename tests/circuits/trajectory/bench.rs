@@ -9,7 +9,7 @@ use motion_rtl::circuits::trajectory_controller::vector_correction::Correction;
 use motion_rtl::circuits::trajectory_controller::{Rounding, TrajectoryController, Widths};
 use motion_rtl::hdl::{At, Cut, Simulator, Value, zero};
 
-/// What stands when all points of a period do, in guard units.
+/// Values when all points of a period are complete, in guard units.
 #[derive(Debug, Clone)]
 pub struct Period {
     pub command: Vec<i64>,
@@ -17,7 +17,7 @@ pub struct Period {
     pub reference: Vec<i64>,
     pub correction: Vec<i64>,
     pub corrected: Vec<i64>,
-    /// What the servo's own model makes of it: where the motor is held.
+    /// Position of the servo's own model: where the motor is held.
     pub model: Vec<i64>,
     pub length: i64,
     pub answered: i64,
@@ -198,7 +198,7 @@ struct Watched {
 }
 
 impl AtPowerOn {
-    /// It compiled, for many runs.
+    /// Compiles it, for many runs.
     pub fn compiled(mut self) -> Self {
         self.simulator.compile();
         self

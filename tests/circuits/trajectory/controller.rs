@@ -102,7 +102,7 @@ fn line(base: [i64; 2], direction: [f64; 2], length: u64) -> Segment {
 /// 50/s and 200/s in periods of a millisecond.
 const GAINS: [u64; 2] = [1638, 6554];
 
-/// What rounding makes of a model's position at most: half a unit of acceleration every period, which
+/// Largest rounding error of a model's position: half a unit of acceleration every period, which
 /// the model answers by 1 / (K1·K2) of it.
 const ROUNDING: i64 = 50;
 
@@ -209,7 +209,7 @@ fn over(numerator: f64, [re, im]: Complex) -> Complex {
     [numerator * re / square, -numerator * im / square]
 }
 
-/// What r(1 − |G|) and r|1 − |G(1 + e^(−jωτ) − G)|| make of a response and a lag.
+/// Values of r(1 − |G|) and r|1 − |G(1 + e^(−jωτ) − G)|| for a response and a lag.
 fn closed_forms(response: Complex, lag: f64) -> [f64; 2] {
     let size = |[re, im]: Complex| re.hypot(im);
     let sum = [1.0 + lag.cos() - response[0], -lag.sin() - response[1]];

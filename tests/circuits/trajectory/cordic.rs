@@ -32,7 +32,7 @@ fn turned(cordic: &Simulator<Cordic>, [radius, offset]: [i64; 2], angle: u64) ->
     [along, simulator.see(|s| s.p.turning.q.across)]
 }
 
-/// How far the point at an angle is from that of sine and cosine.
+/// Distance of the point at an angle from sine and cosine.
 fn error(cordic: &Simulator<Cordic>, radius: i64, angle: u64) -> f64 {
     let [along, across] = turned(cordic, [radius, 0], angle);
     let turn = angle as f64 / (cordic.circuit().angle as f64).exp2() * TAU;

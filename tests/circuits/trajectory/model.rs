@@ -50,7 +50,7 @@ fn step(simulator: &mut Bench, target: i128, gains: [u64; 2]) -> State {
     state(simulator)
 }
 
-/// The same by the equations: gains are `gains` / 2^(K − 1).
+/// Next state by the equations: gains are `gains` / 2^(K − 1).
 fn model(
     [p, v, _]: State,
     target: i128,
@@ -125,7 +125,7 @@ fn monotone() -> impl Iterator<Item = [u32; 2]> {
     (2..5).flat_map(|a| (0..=a - 2).map(move |b| [a, b]))
 }
 
-/// What is left at the end in units of a count of 2^`fraction`, a half upwards.
+/// Final position in units of a count of 2^`fraction`, a half upwards.
 fn counts(position: i128, fraction: u32) -> i128 {
     (2 * position + (1 << fraction)) >> (fraction + 1)
 }
@@ -146,7 +146,7 @@ fn the_target_is_reached_with_as_many_fraction_bits_as_the_gains_have() {
     }
 }
 
-/// Whether some target is missed with so many bits of fraction.
+/// Returns true if some target is missed with `fraction` fraction bits.
 fn misses(bench: &Bench, [a, b]: [u32; 2], fraction: u32) -> bool {
     (-12..=12i128).any(|target| {
         let positions = run(bench, target << fraction, [power(a), power(b)]);

@@ -27,9 +27,9 @@ pub struct Segment {
     pub across: Vector,
     /// A helix's rise, or a spline's part of the length's cube.
     pub third: Vector,
-    /// Of an arc or a helix.
+    /// Radius of an arc or a helix.
     pub radius: Option<f64>,
-    /// Of a spline: bits of its length.
+    /// Bits of the length of a spline.
     pub powers: Option<u32>,
 }
 
@@ -82,7 +82,7 @@ impl Segment {
         [0, 1, 2].map(|k| self.base[k] as f64 + way(k))
     }
 
-    /// What the note's tables of errors add up to, and what doubles leave out.
+    /// Sum of the note's tables of errors, plus the rounding of doubles.
     fn bound(&self) -> f64 {
         let coefficient = self.length as f64 * two_to(1 - C as i32);
         let words = match (self.radius, self.powers) {
@@ -138,7 +138,7 @@ fn segment() -> impl Strategy<Value = Segment> {
                 length,
                 base,
                 along,
-                // Of a spline any that words have.
+                // A spline can have all values that words have.
                 across: across.map(|one| one * if radius.is_none() { 1.99 } else { 1.0 }),
                 third: third.unwrap_or_default(),
                 radius,

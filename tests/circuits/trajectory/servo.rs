@@ -8,7 +8,7 @@ use motion_rtl::circuits::trajectory_controller::{Rounding, Servo, Widths};
 use motion_rtl::hdl::{Simulator, Value};
 use proptest::prelude::*;
 
-/// What the equations know from step to step.
+/// State of the equations from step to step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Loop {
     /// p and v of the model.
@@ -42,7 +42,7 @@ impl Loop {
         let [k1, k2] = settings.model.map(i128::from);
         let exact = k2 * (k1 * (target - p) - v * one);
         let a = exact.signum() * ((exact.abs() + one * one / 2) / (one * one));
-        // What the model moved in this step is its velocity before it.
+        // The model's move in this step is its velocity before it.
         let (position, moved) = (p + v, v);
         let guard = widths.position - widths.count;
         let bits = widths.gain - 1;
@@ -115,7 +115,7 @@ fn channels(count: i128) -> [bool; 2] {
     [quarter == 1 || quarter == 2, quarter >= 2]
 }
 
-/// What is told in a period: how far the motor moves, and the target.
+/// Inputs of a period: move of the motor, and the target.
 type Period = (i128, i128);
 
 /// Position of the motor as the servo knows it.

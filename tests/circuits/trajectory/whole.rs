@@ -233,8 +233,8 @@ fn all_models_are_the_same_to_the_bit() {
     }
 }
 
-/// What is fed back is made of the command, where the motors stand, and the way of the count before
-/// the command, on a line, over a corner and on an arc.
+/// The feedback is computed from the command, the motors' positions, and the direction from the
+/// point a count before the command, on a line, over a corner and on an arc.
 #[test]
 fn what_is_fed_back_is_by_the_direction_at_the_command() {
     let (radius, count) = (30_000_000.0, 65_536);

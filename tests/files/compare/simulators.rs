@@ -181,7 +181,7 @@ fn verilator(trace: &str, dump: &str) -> tempfile::TempDir {
         "--binary",
         "--timing",
         "-Wno-fatal",
-        // It runs for less time than g++ takes to optimise it.
+        // The model runs for less time than g++ takes to optimise it.
         "-MAKEFLAGS",
         "OPT_FAST=-O0",
         "-MAKEFLAGS",

@@ -1,5 +1,4 @@
-//! What comes from outside, reader by reader, as bytes that nobody has looked at. The targets of
-//! `fuzz/` are these too.
+//! Readers of outside data, fed with arbitrary bytes. The targets of `fuzz/` use them too.
 
 use motion_rtl::compare::{Map, Settings, compare, template};
 use motion_rtl::input::position_log::{self, Columns};
@@ -10,7 +9,7 @@ use std::path::PathBuf;
 use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What a reader is given to.
+/// A reader under test, given the bytes.
 pub type Reader = fn(&[u8]);
 
 /// All of them, by the names of their corpora.
@@ -24,7 +23,7 @@ pub const READERS: [(&str, Reader); 7] = [
     ("fst", fst),
 ];
 
-/// What is refused is refused in a line that has an end and says where.
+/// A refusal is a line of limited length that says where.
 fn refused(fault: &Fault) {
     let text = fault.to_string();
     assert!(text.starts_with("input"), "{text}");
@@ -32,7 +31,7 @@ fn refused(fault: &Fault) {
     assert!(text.len() < 100_000, "{}", text.len());
 }
 
-/// What is taken is not empty, and has only numbers.
+/// An accepted drawing is not empty, and has only finite numbers.
 fn drawn(read: Result<Drawing, Fault>) {
     match read {
         Ok(drawing) => {

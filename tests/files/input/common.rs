@@ -49,7 +49,7 @@ pub fn moves(drawing: &Drawing) -> Vec<String> {
     drawing.moves.iter().map(show).collect()
 }
 
-/// Whether the coordinates agree but for rounding.
+/// Returns true if the coordinates agree but for rounding.
 pub fn near(a: Point, b: Point) -> bool {
     a.iter()
         .zip(b)

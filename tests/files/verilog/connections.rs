@@ -1,4 +1,4 @@
-//! What drives the ports of the parts of a circuit.
+//! Drivers of the ports of a circuit's parts.
 
 use super::netlists::names;
 use motion_rtl::check::Drive;
@@ -41,7 +41,7 @@ impl Circuit for Count {
 #[derive(Debug, Clone)]
 struct Counts;
 
-/// Those in it.
+/// The counters in it.
 const LOW: Count = Count { limit: 9 };
 const HIGH: Count = Count { limit: 2 };
 
@@ -79,7 +79,7 @@ impl Circuit for Counts {
     }
 }
 
-/// As lines.
+/// Prints the connections, one per line.
 fn text(connections: &Connections) -> String {
     let mut text = String::new();
     let lines = |text: &mut String, what: &str, connections: &[Connection]| {

@@ -33,7 +33,7 @@ impl Circuit for Count {
     }
 }
 
-/// What a surrounding circuit looks at in its counter.
+/// Signal of its counter that a surrounding circuit reads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Way {
     Ports,
@@ -65,7 +65,7 @@ impl Circuit for Around {
     }
 }
 
-/// What is wrong with a circuit, place left out.
+/// Returns the mistakes of a circuit, without their source lines.
 fn refused(circuit: &impl Circuit) -> Vec<String> {
     match Verilog::of(circuit) {
         Err(EngineError::Circuit(wrong)) => {

@@ -1,4 +1,4 @@
-//! What holds for the text of every circuit.
+//! Properties of the text of every circuit.
 
 use super::{circuits, flat};
 use motion_rtl::hdl::{Kind, Shape};
@@ -7,7 +7,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 
 const LONGEST: usize = 110;
 
-/// What a module declares: its names with their kind and width, and its instances with their
+/// Declarations of a module: its names with their kind and width, and its instances with their
 /// modules.
 #[derive(Default)]
 struct Module {

@@ -172,7 +172,7 @@ fn the_run_waits_for_a_slow_file() {
             vcd.finish().map(drop)
         }
     });
-    // It gets as far as the sections reach, and no further.
+    // The run gets as far as the sections reach, and no further.
     let bytes = |ticks: u64| run_zoo(ticks, &Options::default()).0.len();
     while ticks.load(Ordering::SeqCst) < 1_000 {
         std::thread::yield_now();

@@ -83,7 +83,7 @@ fn unlisted_ports_stay_at_zero_and_parts_have_paths() {
     parse(note).unwrap()[0].run(&Zoo).unwrap();
 }
 
-/// What is wrong with a chart of these lines.
+/// Returns the error of a chart of these lines.
 fn wrong(lines: &str) -> String {
     let note = format!("```chart part\n{lines}\n```\n");
     match parse(&note) {
@@ -201,7 +201,7 @@ fn what_can_be_wrong_with_a_fence() {
         parse(open).unwrap_err().to_string(),
         "line 2: the chart is not closed"
     );
-    // It would be passed over, and nobody would notice.
+    // Markdown would skip it without a message.
     let ticked = "text\n```chart part `level` goes up\ntick 0\n= level 0\n```\n";
     assert_eq!(
         parse(ticked).unwrap_err().to_string(),

@@ -1,4 +1,4 @@
-//! The same run as VCD and as FST, as an independent reader sees them.
+//! One run as VCD and as FST, as an independent reader sees them.
 
 use super::reader::{self, Dump};
 use super::zoo::{Part, PartIn, Zoo, inputs};

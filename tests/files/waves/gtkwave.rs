@@ -117,7 +117,7 @@ fn gtkwave_shows_every_signal_of_the_save_file_with_its_values() {
     assert!(compared > 200, "{compared}");
 }
 
-/// What GTKWave shows of a signal or of a state's name.
+/// Returns the value that GTKWave shows for a signal or a state's name.
 fn expected(recorder: &Recorder, tick: u64, path: &str) -> String {
     if path == "zoo.clk" {
         return "1".to_owned();

@@ -3,7 +3,7 @@ use super::zoo::PHASES;
 use motion_rtl::hdl::prelude::*;
 use motion_rtl::trace::{LayoutError, Options, Vcd};
 
-/// Why a circuit of these ports in has no waves.
+/// Returns why a circuit with these input ports has no waves.
 macro_rules! refused {
     ({ $($field:tt)* }) => {{
         #[derive(Debug, Clone)]
@@ -23,7 +23,7 @@ macro_rules! refused {
     }};
 }
 
-/// What bundles belong to.
+/// Owner of bundles.
 struct Sides;
 
 signals! { for Sides as _c; struct Side { level: U(3) } }

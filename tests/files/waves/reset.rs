@@ -62,7 +62,7 @@ fn flip_flops_show_power_on_and_memories_take_the_edge() {
     assert!(changed_by_reset > 0);
 }
 
-/// What a memory says it changed survives the reset, so the short way through it sees it.
+/// A memory's change marks survive the reset, so the incremental path sees them.
 #[test]
 fn the_waves_show_what_a_tick_of_reset_wrote() {
     let mut vcd = Vcd::new(Vec::new(), &Zoo, clock(), &Options::default()).unwrap();

@@ -124,7 +124,7 @@ fn every_arc_is_within_its_bound() {
     assert!(nearest[1] > 0.1 && floor[1] > 0.2, "{nearest:?} {floor:?}");
 }
 
-/// How much of the bound is reached on a whole turn, for radii and steps of several sizes.
+/// Share of the bound that a whole turn reaches, for radii and steps of several sizes.
 #[test]
 fn a_whole_turn_stays_within_its_bound() {
     // Tilted, so that no coefficient is a round number.

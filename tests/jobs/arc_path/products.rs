@@ -42,7 +42,7 @@ proptest! {
         let found = made(Shape::Blend { before: a, corner: b, behind: c }, samples);
         let m = i128::from(samples);
         let bound = 0.5 + product_error(&FULL) / unit();
-        // What is largest is anywhere: some of many.
+        // The largest error can be anywhere: a sample of many points.
         let every = (samples / 500).max(1);
         for n in (0..=samples).step_by(every as usize).chain([samples]) {
             for k in 0..3 {

@@ -178,7 +178,7 @@ fn the_fastest_speed_of_a_resolver_is_followed() {
             targets: Targets::Relative,
             ..turntable()
         };
-        // Of 400 counts to a pitch 50 in 0.1 ms.
+        // 50 of the 400 counts of a pitch in 0.1 ms.
         settings.resolver.pole_pairs = 64;
         settings.body.counts_per_rev = 25_600.0;
         settings.body.acceleration_counts_per_s2 = 6e6;

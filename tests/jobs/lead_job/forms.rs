@@ -98,7 +98,7 @@ fn with_n_fixed_at_one_stops_are_within_a_ck_of_way() {
     assert_eq!(products.positionings, played.positionings);
 }
 
-/// What N is for: on the way to speed, from where the fastest step does not come.
+/// Purpose of N: positions reached while accelerating, from where the fastest step does not come.
 #[test]
 #[ignore = "takes long"]
 fn while_the_body_accelerates_n_fixed_at_one_stops_later() {

@@ -88,8 +88,8 @@ fn learning_is_within_a_codes_travel_after_six_positionings_and_after_the_load_c
     }
 }
 
-/// What each function makes of the first stop of each step, and where learning ends before the load
-/// changes.
+/// Result of each function from the first stop of each step, and the state of learning before the
+/// load changes.
 #[test]
 fn the_exact_relation_knows_the_lead_after_a_stop_of_each_step() {
     let settings = turntable();
@@ -337,7 +337,7 @@ fn operating() -> Settings {
     }
 }
 
-/// What is learned from is where the operation took effect; the body goes on.
+/// Learning uses the position at which the operation took effect; the body moves on.
 #[test]
 #[ignore = "takes long"]
 fn an_operation_in_passing_is_learned_from_where_it_took_effect() {

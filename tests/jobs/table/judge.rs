@@ -36,7 +36,7 @@ pub fn drawing(start: Point, mut moves: Vec<Move>) -> Drawing {
     }
 }
 
-/// What an axis's step and direction signals do over a whole table.
+/// Step and direction signals of an axis over a whole table.
 #[derive(Debug, Default, Clone, Copy)]
 pub struct Played {
     pub forward: u64,

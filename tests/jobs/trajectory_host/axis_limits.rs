@@ -110,7 +110,7 @@ fn a_circle_shares_its_acceleration() {
     assert!((speed / exact - 1.0).abs() < 1e-6, "{speed} {exact}");
     let most = largest(&program);
     assert!(most[0] < 1000.0 * 1.001 && most[0] > 700.0, "{most:?}");
-    // What the path is allowed across goes on to hold.
+    // The limit across the path still holds.
     let slow = self::program(&[arc(0.0, 20.0, TAU)], &[1000.0, 2000.0], 100.0);
     let speeds = slow.profile.pieces.iter().map(|piece| piece.v);
     let speed = speeds.fold(0.0, f64::max) / slow.motion.units_per_mm;

@@ -49,7 +49,7 @@ fn check(profile: &Profile, spans: &[Span], slope: Slope) -> Result<(), TestCase
         true => acceleration / jerk_time,
         false => 0.0,
     };
-    // What the last digits of a time are worth.
+    // Value of the last digits of a time.
     let digits = profile.duration * 1e-15;
     let (near_q, near_v, near_a) = (
         1e-9 * length + fastest * digits,

@@ -56,7 +56,7 @@ fn check(profile: &Profile, period: f64) -> Result<(), TestCaseError> {
     for (n, &sample) in samples.iter().enumerate().take(last) {
         let exact = profile.at(n as f64 * period)[0];
         most = most.max((sample as f64 - exact).abs());
-        // What is rounded may step back by one where it hardly moves.
+        // A rounded length may step back by one where it hardly moves.
         back = back.max(sample - samples[n + 1]);
     }
     // A guard unit, and the last digit of a length near 2^46.

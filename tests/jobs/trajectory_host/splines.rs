@@ -56,8 +56,8 @@ fn constructed(points: [Vector; 4], t: f64) -> Vector {
 struct Chords {
     points: Vec<Vector>,
     lengths: Vec<f64>,
-    /// How far they are off it at most: an eighth of the second derivative, over their number
-    /// squared.
+    /// Largest distance of the chords from the spline: an eighth of the second derivative, over
+    /// their number squared.
     coarse: f64,
 }
 
@@ -116,12 +116,12 @@ fn slope(stretch: &Stretch, at: u64, by: u64) -> Vector {
     sub(on, back).map(|one| one / (2 * by) as f64)
 }
 
-/// What holds of every path of one spline; gives its segments.
+/// Checks the properties of every path of one spline; returns its number of segments.
 fn check(points: [Vector; 4], parts: &[f64]) -> Result<usize, TestCaseError> {
     let path = Path::of(points[0], &[spline(points)], 1000.0, &Widths::FULL);
     let path = path.map_err(|error| TestCaseError::fail(error.to_string()))?;
     let chords = Chords::of(points);
-    // What the chords cut off is far below what is looked for.
+    // The error of the chords is far below the one under test.
     let long = (path.length as f64 - chords.length()).abs();
     let segments = path.stretches.len();
     prop_assert!(
@@ -167,7 +167,7 @@ fn check(points: [Vector; 4], parts: &[f64]) -> Result<usize, TestCaseError> {
             );
         }
         if stretch.segment.powers.is_some() && stretch.length > 4096 {
-            // As long as it says, wherever on it, and bent as much at most.
+            // A stretch has its stated length everywhere, and at most its stated curvature.
             for at in [
                 stretch.length / 4,
                 stretch.length / 2,

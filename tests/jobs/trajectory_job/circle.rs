@@ -158,7 +158,7 @@ impl Run {
         search.finish().unwrap()
     }
 
-    /// How far motors and loads were off their models at most, in counts.
+    /// Largest distances of motors and loads from their models, in counts.
     pub fn off_model(&self) -> [f64; 2] {
         let mut worst = [0.0f64; 2];
         for period in &self.played.periods {

@@ -59,7 +59,7 @@ fn pushed(settings: &mut Settings) {
     }];
 }
 
-/// By how much the motor is ahead of its model, in counts, period by period.
+/// Lead of the motor over its model, in counts, period by period.
 fn ahead(run: &Run) -> Vec<f64> {
     let periods = run.played.periods.iter();
     periods
@@ -67,7 +67,7 @@ fn ahead(run: &Run) -> Vec<f64> {
         .collect()
 }
 
-/// What the torque does to the motor: the run with it less the run without.
+/// Effect of the torque on the motor: the run with it less the run without.
 fn moved(gains: Gains) -> Vec<f64> {
     let [with, without] = [along_x(gains, pushed), along_x(gains, |_| ())];
     let pairs = with.played.periods.iter().zip(&without.played.periods);
@@ -128,7 +128,7 @@ fn a_torque_from_outside_is_answered_by_the_loops_alone() {
             assert!((one - other).abs() <= 3.0, "{n}: {one} {other}");
         }
     }
-    // Those of the loops do, and as they should.
+    // The gains of the loops matter, by the expected factors.
     let mut peaks = Vec::new();
     for (position, speed_hz, integral_ms) in [
         (30.0, 17.0, 40.0),
@@ -233,7 +233,7 @@ fn a_wrong_inertia_is_a_torque_from_outside() {
     let own = peak(&none).abs();
     println!("without: {own} {expected}");
     assert!((own / expected - 1.0).abs() < 0.1, "{own} {expected}");
-    // What the shaft's give makes is there with the right inertia too.
+    // The effect of the shaft's compliance is there with the right inertia too.
     let (_, right) = told(1.0);
     for factor in [0.5, 1.5, 2.0] {
         let (_, seen) = told(factor);

@@ -43,7 +43,7 @@ fn a_circle_by_the_closed_form() {
     }
 }
 
-/// The same circle step by step, motors on their models, seen so much before a period is over.
+/// The circle step by step, motors on their models, sampled `lead` periods before the end of each.
 fn recursion(tangential: f64, normal: f64, lead: f64) -> f64 {
     let [k1, k2] = [1638.0, 6554.0].map(|word| word / 32_768.0);
     let (mut p, mut v) = ([10.0, 0.0], [0.0; 2]);
@@ -67,7 +67,7 @@ fn recursion(tangential: f64, normal: f64, lead: f64) -> f64 {
     1e3 * (10.0 - p[0].hypot(p[1]))
 }
 
-/// What is added to the commands, in mm.
+/// Correction added to the commands, in mm.
 fn added(run: &Run) -> Vec<[f64; 2]> {
     let periods = run.played.periods.iter();
     let of = |period: &Period| {
@@ -213,9 +213,9 @@ fn beyond_the_bound_the_loop_grows() {
         let program = Program::of([0.0; 3], &pieces, &settings, &machine, &Widths::FULL).unwrap();
         let circuit = controller(2, Correction::Feedback, settings.rounding);
         let plants = plants(&machine, 1.0 / settings.clock_hz as f64);
-        // What grows does not settle.
+        // An unstable loop does not settle.
         let played = play(&circuit, &program, plants, &mut ()).unwrap();
-        // What is off a steady run along x: how much the lag changes, or y.
+        // Deviation from a steady run along x: the change of the lag, or y.
         let periods = &played.periods;
         let off = |n: usize| match normal > 0.0 {
             true => periods[n].motor[1] as f64,

@@ -179,7 +179,7 @@ fn w_is_on_the_path_and_is_corrected() {
         println!("{correction:?}: {own:.2?} um rms of models and loads");
         rms.push(own);
     }
-    // What the vector leaves is at the corners.
+    // The errors left by the vector correction are at the corners.
     for part in 0..2 {
         assert!(rms[1][part] < 0.7 * rms[0][part], "{rms:?}");
         assert!(rms[2][part] < 0.3 * rms[0][part], "{rms:?}");

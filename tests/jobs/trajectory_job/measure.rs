@@ -1,4 +1,4 @@
-//! What is measured, against places that are known, and against a search of all lengths.
+//! Measurements, against places that are known, and against a search of all lengths.
 
 use super::*;
 use motion_rtl::jobs::trajectory_controller::job::Period;

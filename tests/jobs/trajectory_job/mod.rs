@@ -57,7 +57,7 @@ fn arc(radius: f64, angle: f64, speed: f64) -> Piece {
     }
 }
 
-/// What is run, and what came of it.
+/// A program and its run.
 struct Run {
     program: Program,
     played: Played,

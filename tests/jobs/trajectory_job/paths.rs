@@ -20,8 +20,8 @@ impl Model {
     }
 }
 
-/// How far the circuit's models are rounded off: three in a row, each by 1/(2·K1·K2) units at most,
-/// and the points.
+/// Rounding error of the circuit's models: three in a row, each by 1/(2·K1·K2) units at most, and
+/// the points.
 const ROUNDING: f64 = 160.0;
 
 /// The circuit, period by period, against the profile and equations (1) to (8).

@@ -1,4 +1,4 @@
-//! What is refused, and why.
+//! Refused settings, with the reasons.
 
 use super::*;
 use motion_rtl::jobs::trajectory_controller::each_axis::EachAxis;
@@ -63,7 +63,7 @@ fn an_axis_that_does_not_fit_is_named() {
         text,
         "axis 0: max_torque_nm: is 0.1: its gain is 19760000, of 16777215 at most; allowed: 0.1179 to 1974000"
     );
-    // What is said to be allowed is.
+    // The limits named in the messages are allowed.
     for max_torque_nm in [0.1179, 3000.0] {
         let axis = TwoMassParameters {
             max_torque_nm,

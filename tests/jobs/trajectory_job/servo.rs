@@ -19,7 +19,7 @@ fn line_with(torque: f64) -> Run {
 
 #[test]
 fn a_motor_that_is_too_weak_is_late_and_comes_back() {
-    // How far the load goes beyond the end at most, in counts: a weak motor cannot stop sooner.
+    // Largest overshoot of the load in counts: a weak motor cannot stop sooner.
     for (torque, beyond) in [(10.0, 30.0), (3.0, 750.0), (2.0, 3800.0)] {
         let run = line_with(torque);
         let measured = run.measured();

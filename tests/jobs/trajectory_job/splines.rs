@@ -71,8 +71,8 @@ fn a_circle_of_splines_is_widened_as_an_arc_is() {
     assert!((steady - by_arc).abs() < 5e-4, "{steady}, {by_arc}");
 }
 
-/// What is looked up is −c·v² times the second derivative beside the path, on a curve whose curvature
-/// changes and turns round.
+/// The correction is −c·v² times the second derivative beside the path, on a curve whose curvature
+/// changes and changes its sign.
 #[test]
 fn what_is_added_is_the_acceleration_times_c() {
     let points = [

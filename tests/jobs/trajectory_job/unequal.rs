@@ -30,7 +30,7 @@ fn gains(axis: usize) -> [f64; 2] {
     [K1, K2].map(|of| (of[axis] * PERIOD * 32_768.0).round() / 32_768.0)
 }
 
-/// By how much an axis is late at constant speed, in s.
+/// Delay of an axis at constant speed, in s.
 fn lag(axis: usize) -> f64 {
     (1.0 / gains(axis)[0] - 1.0) * PERIOD
 }
@@ -90,7 +90,8 @@ fn response(axis: usize, turn: f64) -> Complex {
     times(z, over)
 }
 
-/// What the axis makes of e^(jωt) by a correction; the tangential response is that of the slower axis.
+/// Response of the axis to e^(jωt) with a correction; the tangential response is that of the
+/// slower axis.
 fn answer(axis: usize, turn: f64, correction: Correction) -> Complex {
     let own = response(axis, turn);
     match correction {

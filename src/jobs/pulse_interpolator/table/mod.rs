@@ -1,7 +1,7 @@
 //! Conversion of a drawing to the contents of the pattern memory.
 //!
 //! [`counts`](crate::circuits::pulse_interpolator::counts) gives the pulses of a half-period in a
-//! unit time and the possible counts; [`compile`] turns a drawing into a [`Table`] of
+//! unit time and the possible counts; [`compile()`] turns a drawing into a [`Table`] of
 //! half-periods, with a report; [`Table::scaled`] is the text's scaling by multiplying the data.
 
 mod compile;

@@ -70,7 +70,7 @@ fn splines_go_through_their_curves() {
             .iter()
             .any(|step| near(step.to, [4.0, 3.0, 0.0]))
     );
-    // The same as a line of its own first control point: the negative of the last one.
+    // Equal to a line with its own first control point: the negative of the last one.
     let again = |text: &str| ends(&chords(&format!("G5 X8 I0 J4 P0 Q4 F60\n{text}")));
     assert_eq!(again("X16 P0 Q-4"), again("G5 X16 I0 J-4 P0 Q-4"));
     let quadratic = chords("G5.1 X8 I4 J8 F60");
@@ -191,9 +191,9 @@ fn a_nurbs_goes_through_its_curve_by_either_form() {
         );
     }
     assert!(near(*path.last().unwrap(), [0.0; 3]));
-    // As moves of one line, that of the end.
+    // The moves belong to one line, that of the end.
     assert!(drawings[0].moves.iter().all(|step| step.line == 7));
-    // What follows it needs a motion of its own, and starts at its end.
+    // The next line needs a motion of its own, and starts at its end.
     let after = |text: &str| format!("{}\n{text}", LOOP[0]);
     assert!(refuse(read, &after("X5")).starts_with("t:8: X, Y, Z: no G0, G1, G2 or G3 in force"));
     let last = accept(read, &after("G91 G1 X5")).moves.last().unwrap();

@@ -54,7 +54,7 @@ fn w_goes_with_the_moves() {
         assert_eq!(drawing.fourth, w, "{text:?}");
         assert_eq!(moves(&drawing), lines, "{text:?}");
     }
-    // What moves nothing is left out, and tiny steps add up.
+    // Lines without a move are left out, and tiny steps add up.
     let drawing = accept(with_w, "G1 X1 W2 F60\nW2\nW2.0000006\nW2.0000012\nX2");
     assert_eq!(drawing.fourth, [2.0, 2.0000012, 2.0000012]);
     assert_eq!(drawing.zero_length, 2);

@@ -83,7 +83,7 @@ fn offsets_and_where_they_lead() {
 
 #[test]
 fn tool_lengths_shift_the_path() {
-    // As rs274 of LinuxCNC has them.
+    // Results of LinuxCNC's rs274.
     let cases: &[(&str, &[&str])] = &[
         (
             "G0 Z5\nG43.1 Z2.5\nG0 Z5\nG91 Z1\nG90 G53 Z0\nZ1\nG49\nZ1",

@@ -188,7 +188,7 @@ fn inline_power_says_nothing_about_the_path() {
 
 #[test]
 fn axis_words_beside_m_words_move() {
-    // As rs274 of LinuxCNC does; printers' words keep theirs.
+    // Results of LinuxCNC's rs274; printers' words keep theirs.
     for (text, expected) in [
         (
             "G0 X1\nX5 M67 E0 Q5",

@@ -126,7 +126,7 @@ fn bytes_that_an_editor_made_utf8_of_are_bytes() {
         drawing.warnings[0].to_string(),
         "t:2: PE: characters are UTF-8, taken for the bytes they stand for"
     );
-    // What is UTF-8 by chance, and right as it is, is left so: -1 and 0.
+    // Bytes that are valid UTF-8 by chance, and right as they are, are left so: -1 and 0.
     assert_eq!(drawn(b"PE\xc2\xbf;"), ["line to -0.025 0 0"]);
     // The first fault is the one that is shown.
     let fault = read("t", "PE\u{f6}\u{f6}!;".as_bytes()).unwrap_err();

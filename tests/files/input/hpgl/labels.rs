@@ -77,7 +77,7 @@ fn the_pen_goes_on_at_the_next_cell() {
         ("DV1;LBAB\x03", (0.0, -800.0)),
         ("DV3;LBA\x03", (0.0, 400.0)),
         ("DV2;LO7;LBA\x03", (-150.0, 0.0)),
-        // What stands at its middle or its right leaves the pen where it was.
+        // A label placed by its middle or its right leaves the pen where it was.
         ("LO2;LBAB\x03", (300.0, 0.0)),
         ("LO13;LBAB\x03", (300.0, 0.0)),
         ("LO21;LBAB\x03", (300.0, 0.0)),

@@ -13,8 +13,8 @@ use motion_rtl::input::hpgl::read;
 
 use super::common::accept;
 
-/// What a text draws, in plotter units rounded to a hundredth: U where the pen is up on the way, D
-/// where it is down.
+/// Moves of a text, in plotter units rounded to a hundredth: U where the pen is up, D where it is
+/// down.
 fn path(text: &str) -> String {
     let drawing = accept(read, text);
     let shown = drawing.moves.iter().map(|step| {

@@ -1,4 +1,4 @@
-//! What is refused, and with what words.
+//! Refused texts, with their messages.
 
 use motion_rtl::input::hpgl::read;
 

@@ -1,4 +1,4 @@
-//! What is skipped, with what words, and what is skipped only if lenient.
+//! Skipped instructions, with their messages, and those skipped only if lenient.
 
 use motion_rtl::input::Options;
 use motion_rtl::input::hpgl::{read, read_with};
