@@ -329,7 +329,7 @@ fn parts_that_do_not_belong_together_are_refused() {
     );
 }
 
-/// The passage of the README, on this machine.
+/// The passage of `rtl_notes/commands.md`, on this machine.
 #[test]
 #[ignore = "needs GNU parallel"]
 fn gnu_parallel_does_the_parts() {

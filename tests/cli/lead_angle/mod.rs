@@ -399,7 +399,7 @@ fn a_ram_gives_the_same() {
     assert_eq!(summary("ram"), summary("shift_register"));
 }
 
-/// The figures of the README: no step comes to its speed.
+/// No step comes to its speed: leads from a measured speed are less exact.
 #[test]
 #[ignore = "takes long"]
 fn what_is_measured_on_the_way_to_speed_is_of_a_moment_ago() {

@@ -172,7 +172,7 @@ fn the_circle_is_what_closed_forms_say() {
     }
 }
 
-/// The figures of the README and the note: each correction by the feed of a quarter.
+/// The figures of the note: each correction by the feed of a quarter.
 #[test]
 #[ignore = "takes long"]
 fn where_the_feed_changes_the_vector_is_not_right() {
