@@ -9,7 +9,7 @@ const WIDEST_BITMAP: usize = 36;
 /// Packed states that were visited.
 pub(crate) enum Visited {
     /// One bit for every possible state.
-    Bitmap(BitVec<u64, Lsb0>),
+    Bitmap(BitVec<usize, Lsb0>),
     /// Set of visited states.
     Set(HashSet<u64, BuildHasherDefault<WordHasher>>),
 }
@@ -21,7 +21,11 @@ impl Visited {
         if bits <= bitmap_bits.min(WIDEST_BITMAP) {
             // Made from zeroed words and not by `repeat`: pages without a visited state then never
             // become resident.
-            Visited::Bitmap(BitVec::from_vec(vec![0; (1usize << bits).div_ceil(64)]))
+            Visited::Bitmap(BitVec::from_vec(vec![
+                0;
+                (1usize << bits)
+                    .div_ceil(usize::BITS as usize)
+            ]))
         } else {
             Visited::Set(HashSet::default())
         }

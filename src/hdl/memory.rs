@@ -231,7 +231,7 @@ pub struct Image {
     /// First word that does not fit.
     unfit: Option<Unfit>,
     /// Shared, since circuits are cloned often.
-    bits: Arc<BitVec<u64, Lsb0>>,
+    bits: Arc<BitVec<usize, Lsb0>>,
 }
 
 /// Word that does not fit its image.
@@ -257,7 +257,7 @@ impl Image {
             address,
             width,
             unfit: None,
-            bits: Arc::new(bitvec![u64, Lsb0; 0; words * width]),
+            bits: Arc::new(bitvec![usize, Lsb0; 0; words * width]),
         }
     }
 
@@ -346,13 +346,13 @@ impl Image {
     pub fn iter(&self) -> impl ExactSizeIterator<Item = u64> {
         self.bits
             .chunks_exact(self.width.max(1))
-            .map(|word| word.load_le())
+            .map(|word| word.load_le::<u64>())
     }
 
     /// Returns the word at `address`; `None` if there is no such address.
     pub fn get(&self, address: usize) -> Option<u64> {
         let bits = self.place(address).and_then(|place| self.bits.get(place));
-        bits.map(|word| word.load_le())
+        bits.map(|word| word.load_le::<u64>())
     }
 
     /// Replaces the word at `address`.

@@ -54,7 +54,7 @@ pub(crate) use mistake::debug_as_display;
 pub use mistake::{Mistake, Wrong};
 pub use model::{Described, Model};
 pub use mutation::Mutation;
-pub use observe::{Observer, RunError, StopWhen};
+pub use observe::{Each, Observer, RunError, StopWhen};
 pub(crate) use outline::declarations;
 pub use pack::inputs;
 pub use part::{Part, Settled, settle_each};

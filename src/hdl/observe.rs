@@ -49,7 +49,7 @@ impl RunError {
 /// `()` observes nothing and costs nothing; a tuple passes each tick to its parts in turn.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not observe runs of `{C}`",
-    note = "observers are `()`, `Vcd`, `Fst`, `Recorder`, `Monitor`, `StopWhen`, references to them, \
+    note = "observers are `()`, `Vcd`, `Fst`, `Recorder`, `Monitor`, `Each`, `StopWhen`, references to them, \
             and tuples of two to four of them"
 )]
 pub trait Observer<C: Circuit> {

@@ -209,7 +209,7 @@ mod tests {
         for _ in 0..100 {
             let words: Vec<u64> = (0..12).map(|_| random.word() >> 51).collect();
             let mut word = Word::default();
-            let mut bits = BitVec::<u64, Lsb0>::new();
+            let mut bits = BitVec::<usize, Lsb0>::new();
             for part in &words {
                 word.push(*part, 13);
                 bits.extend_from_bitslice(&part.view_bits::<Lsb0>()[..13]);

@@ -1,7 +1,7 @@
 //! Helpers of the pulse interpolator's tests.
 
 use motion_rtl::circuits::pulse_interpolator::{Group, Pattern, Variant, Widths};
-use motion_rtl::hdl::{Sample, Simulator, StopWhen, zero};
+use motion_rtl::hdl::{Each, Sample, Simulator, zero};
 
 /// Widths of half-period, unit time and address.
 pub fn widths(half_period: usize, period: usize, address: usize) -> Widths {
@@ -52,11 +52,10 @@ pub fn steps(group: &Group, ticks: u64) -> Vec<bool> {
     let mut wave = Vec::new();
     let look = |now: &Sample<'_, Group>| {
         wave.push(now.w.step[0]);
-        false
     };
     Simulator::new(group)
         .unwrap()
-        .run(ticks, |_, _| zero(group), StopWhen(look))
+        .run(ticks, |_, _| zero(group), Each(look))
         .expect("no observer fails");
     wave
 }

@@ -4,7 +4,7 @@ use super::common::{player, rises, steps, unit_wave, widths};
 use motion_rtl::circuits::pulse_interpolator::Variant::Safe;
 use motion_rtl::circuits::pulse_interpolator::group::{Group, In};
 use motion_rtl::circuits::pulse_interpolator::{Pattern, Widths, pattern_memory::WritePort};
-use motion_rtl::hdl::{Declarations, Role, Sample, Simulator, StopWhen, Value, zero};
+use motion_rtl::hdl::{Declarations, Each, Role, Sample, Simulator, Value, zero};
 
 type Port = In<Value>;
 
@@ -43,11 +43,10 @@ fn run(group: &Group, ticks: u64, stimulus: impl Fn(u64) -> Port) -> Vec<Seen> {
             step: now.w.step[0],
             dir: now.w.dir[0],
         });
-        false
     };
     Simulator::new(group)
         .unwrap()
-        .run(ticks, |tick, _| stimulus(tick), StopWhen(look))
+        .run(ticks, |tick, _| stimulus(tick), Each(look))
         .expect("no observer fails");
     seen
 }
@@ -317,7 +316,6 @@ fn a_write_goes_to_the_axis_it_names() {
                 rose[line] += u32::from(*level && !before[line]);
                 before[line] = *level;
             }
-            false
         };
         let drive = |tick| In {
             port: WritePort {
@@ -333,7 +331,7 @@ fn a_write_goes_to_the_axis_it_names() {
         };
         Simulator::new(&group)
             .unwrap()
-            .run(20, |tick, _| drive(tick), StopWhen(look))
+            .run(20, |tick, _| drive(tick), Each(look))
             .expect("no observer fails");
         assert_eq!(rose, [0, 1].map(|line| if line == axis { 2 } else { 0 }));
     }
@@ -391,11 +389,10 @@ fn eight_axes_under_one_unit_time_counter() {
         for (wave, step) in waves.iter_mut().zip(&now.w.step) {
             wave.push(*step);
         }
-        false
     };
     Simulator::new(&group)
         .unwrap()
-        .run(500, |_, _| zero(&group), StopWhen(look))
+        .run(500, |_, _| zero(&group), Each(look))
         .expect("no observer fails");
     for (wave, half_period) in waves.iter().zip(half_periods) {
         assert_eq!(wave[..100], [false; 100], "before the first unit time");

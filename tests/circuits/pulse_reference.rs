@@ -4,7 +4,7 @@ use super::common::widths;
 use motion_rtl::circuits::pulse_interpolator::Variant::Safe;
 use motion_rtl::circuits::pulse_interpolator::group::{Group, In};
 use motion_rtl::circuits::pulse_interpolator::pattern_memory::WritePort;
-use motion_rtl::hdl::{Sample, Simulator, State, StopWhen, Value, zero};
+use motion_rtl::hdl::{Each, Sample, Simulator, State, Value, zero};
 use proptest::prelude::*;
 
 const WORDS: u64 = 4;
@@ -172,13 +172,12 @@ proptest! {
         let look = |now: &Sample<'_, Group>| {
             let lines = [0, 1].map(|axis| (now.w.step[axis], now.w.dir[axis]));
             seen.push((lines, [now.w.unit_rst, now.w.ready, now.w.busy]));
-            false
         };
         let drive = |tick: u64, _: &State<'_, Group>| {
             ports.get(tick as usize).cloned().unwrap_or_else(|| zero(&circuit))
         };
         Simulator::new(&circuit).unwrap()
-            .run(ports.len() as u64, drive, StopWhen(look))
+            .run(ports.len() as u64, drive, Each(look))
             .map_err(|error| TestCaseError::fail(error.to_string()))?;
         for (tick, (expected, seen)) in expected.iter().zip(&seen).enumerate() {
             prop_assert_eq!(expected, seen, "tick {}", tick);
