@@ -148,6 +148,33 @@ together!(A 0, B 1);
 together!(A 0, B 1, D 2);
 together!(A 0, B 1, D 2, E 3);
 
+/// Calls a function with every tick of a run.
+///
+/// ```
+/// use motion_rtl::circuits::blocks::EnableCounter;
+/// use motion_rtl::hdl::{Each, Simulator, zero};
+///
+/// let counter = EnableCounter { width: 4 };
+/// let mut counts = Vec::new();
+/// let inputs = |_, _: &_| {
+///     let mut i = zero(&counter);
+///     i.period = 3;
+///     i
+/// };
+/// Simulator::new(&counter)?.run(5, inputs, Each(|now| counts.push(now.q.count)))?;
+/// assert_eq!(counts, [0, 1, 2, 0, 1]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Each<F>(pub F);
+
+impl<C: Circuit, F: FnMut(&Sample<'_, C>)> Observer<C> for Each<F> {
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        (self.0)(now);
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
 /// Ends a run after the first tick in which the condition holds.
 #[derive(Debug, Clone)]
 pub struct StopWhen<F>(pub F);

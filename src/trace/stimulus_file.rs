@@ -214,7 +214,10 @@ mod tests {
                 word.push(*part, 13);
                 bits.extend_from_bitslice(&part.view_bits::<Lsb0>()[..13]);
             }
-            assert_eq!((word.filled, &word.parts), (156, &bits.into_vec()));
+            assert_eq!(
+                (word.filled, &word.parts),
+                (156, &bits.chunks(64).map(|word| word.load_le()).collect())
+            );
         }
     }
 
