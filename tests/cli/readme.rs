@@ -107,7 +107,7 @@ fn what_commands_print_is_shown_as_it_is() {
             _ => {}
         }
     }
-    assert_eq!(shown.len(), 3);
+    assert_eq!(shown.len(), 4);
     shown.par_iter().for_each(|(arguments, block)| {
         let directory = tempfile::tempdir().expect("a directory");
         let output = Command::new(env!("CARGO_BIN_EXE_motion-rtl"))

@@ -82,10 +82,12 @@ fn has_number(text: &str) -> bool {
 /// one.
 fn figures(text: &str) -> BTreeSet<String> {
     let mut figures = BTreeSet::new();
-    let mut marked = false;
+    let (mut marked, mut numerals) = (false, false);
     for (_, line) in prose(text) {
         marked = (marked || line.starts_with("<!-- begin ")) && !line.starts_with("<!-- end ");
-        if marked || line.starts_with('#') {
+        // The parts of a patent's figures, with their paragraphs.
+        numerals = (numerals || line.starts_with("| numeral |")) && line.starts_with('|');
+        if marked || numerals || line.starts_with('#') {
             continue;
         }
         let line = without(&without(line, "`", "`"), "](", ")");
@@ -150,6 +152,10 @@ It has 3 bits. Its half has `4`, Verilog-2001 and K1, [x](6.md) and ¶0012–001
 | 8 |
 <!-- end generated -->
 | a | 9.5 |
+
+| numeral | what |
+| 12 | counter |
+
 ```text
 10
 ```
