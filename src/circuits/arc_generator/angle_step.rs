@@ -14,7 +14,7 @@ use crate::hdl::prelude::*;
 
 /// Step of the angle.
 ///
-/// The difference stands in the tick after `step`, with `turn`.
+/// The difference is valid in the tick after `step`, with `turn`.
 #[derive(Debug, Clone)]
 pub struct AngleStep {
     /// H: width of an angle, in units of 2^−H turn.
@@ -22,11 +22,11 @@ pub struct AngleStep {
 }
 
 signals! { for AngleStep as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// On to the next angle, which stands from the next tick on.
+        /// Advances to the next angle, which is valid from the next tick on.
         pub step: Bit,
-        /// Gives up; a step that comes with it is not taken.
+        /// Aborts; a step in the same tick is ignored.
         pub halt: Bit,
         /// θ.
         pub angle: I(c.width) as Analog,
@@ -35,7 +35,7 @@ signals! { for AngleStep as c;
     pub struct Reg {
         /// θi−1.
         last: I(c.width) = 0,
-        /// The difference stands in this tick.
+        /// The difference is valid in this tick.
         pub turn: Bit = 0,
     }
     /// Net.

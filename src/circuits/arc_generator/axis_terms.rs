@@ -1,4 +1,5 @@
-//! Terms of the axis: what \[2\] has of the unit vector k, worked out beforehand.
+//! Terms of the axis: the components and products of the unit vector k in \[2\], computed
+//! beforehand.
 //!
 //! ```text
 //!                     ┌────────────┐
@@ -22,7 +23,7 @@ pub struct AxisTerms {
 }
 
 signals! { for AxisTerms as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Word of a record.
         pub record: RecordWord(&c.data) as Flat,

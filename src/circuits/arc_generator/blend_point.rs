@@ -1,5 +1,4 @@
-//! Blends and lines as the text has them: \[5\] and \[10\] evaluated at h by products, for every sample
-//! anew.
+//! Blends and lines as in the text: \[5\] and \[10\] evaluated at h by products, for every sample.
 //!
 //! ```text
 //!                     ┌─────────────────────────────────────┐
@@ -64,15 +63,15 @@ impl BlendPoint {
 }
 
 signals! { for BlendPoint as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Word of a record.
         pub record: RecordWord(&c.widths.data) as Flat,
         /// M: the samples of the segment.
         pub modulus: U(c.widths.fraction),
-        /// On to the next point; no step and no word on the way to it.
+        /// Advances to the next point; until `done`, `step` and `record` must be low.
         pub step: Bit,
-        /// Gives up a point that is under way.
+        /// Aborts the point that is being computed.
         pub halt: Bit,
     }
     /// The blocks.
@@ -81,22 +80,22 @@ signals! { for BlendPoint as c;
         pub share: Part<DifferenceColumn>(c.share()),
         /// 1/M.
         pub share_step: Part<DifferenceColumn>(c.column(SHARE_WORD + 1, Some(SHARE_WORD + 2))),
-        /// Which bit a product is at.
+        /// Bit index of a product.
         pub control: Part<CoefficientControl>(c.control()),
         /// (2 − h)h³.
         pub weight: Part<BlendWeight>(BlendWeight { coefficient: c.widths.coefficient }),
         /// X, Y and Z.
         pub rows: [Part<BlendRow>(c.row(k as u64)); k in 3] as Elements(ROWS),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
-        /// X of the way from A⁻ to the point.
+        /// X of the vector from A⁻ to the point.
         pub x: I(c.widths.point) as Analog,
         /// Y of it.
         pub y: I(c.widths.point) as Analog,
         /// Z of it.
         pub z: I(c.widths.point) as Analog,
-        /// They are new in this tick.
+        /// High in the tick with new values.
         pub done: Bit,
     }
 }

@@ -1,5 +1,5 @@
-//! A row of a blend by products: one coordinate of 2(A − A⁻)h + S(2 − h)h³, both products at once, a
-//! bit of h and of the weight a tick.
+//! Row of a blend by products: one coordinate of 2(A − A⁻)h + S(2 − h)h³, both products at once,
+//! one bit of h and of the weight per tick.
 //!
 //! ```text
 //!                             ┌───────────┐
@@ -9,8 +9,8 @@
 //!                             └───────────┘
 //! ```
 //!
-//! As in a [`RotationRow`](super::RotationRow) the sum is halved behind a bit of the fraction, and
-//! what falls off last rounds it: nothing is lost before.
+//! The sum is halved after each fraction bit, as in a [`RotationRow`](super::RotationRow); the
+//! last bit shifted out rounds the result, so nothing is lost before.
 
 use super::Widths;
 use super::rotation_row::halved;
@@ -27,7 +27,7 @@ pub struct BlendRow {
 }
 
 impl BlendRow {
-    /// Width of what is multiplied: a difference of points, doubled.
+    /// Width of a multiplicand: a difference of points, doubled.
     pub const fn term(&self) -> usize {
         self.widths.point + 2
     }
@@ -39,7 +39,7 @@ impl BlendRow {
 }
 
 signals! { for BlendRow as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Word of a record.
         pub record: RecordWord(&c.widths.data) as Flat,
@@ -56,13 +56,13 @@ signals! { for BlendRow as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// 2(A − A⁻), on a line its whole way.
+        /// 2(A − A⁻); on a line its whole length.
         slope: I(c.term()) = 0,
         /// S = A⁻ − 2A + A⁺, on a line 0.
         bend: I(c.term()) = 0,
-        /// This row's coordinate of the way from A⁻ to the point.
+        /// This row's coordinate of the vector from A⁻ to the point.
         pub offset: I(c.widths.point) as Analog = 0,
-        /// The products so far, by the weight of the bit to come.
+        /// Partial sum of the products, in units of the next bit's weight.
         sum: I(c.sum()) = 0,
         /// The bit below the sum: a half.
         half: Bit = 0,
@@ -75,7 +75,7 @@ signals! { for BlendRow as c;
         term_bend: I(c.sum()),
         /// The sum with both.
         total: I(c.sum()),
-        /// The sum with what rounds it.
+        /// Sum plus the rounding term.
         raised: I(c.sum()),
         /// The coordinate, to the nearest, a half upwards.
         rounded: I(c.widths.point),

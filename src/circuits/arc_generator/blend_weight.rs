@@ -9,8 +9,9 @@
 //!                            └──────────────┘
 //! ```
 //!
-//! (2 − h)h³ = u(2h − u) with u = h². The first pass of the control makes u, the second the weight,
-//! in the third the bits of h and of the weight go to the rows. Both products are to the nearest.
+//! (2 − h)h³ = u(2h − u) with u = h². The first pass of the control computes u, the second the
+//! weight; in the third the bits of h and of the weight go to the rows. Both products are rounded
+//! to nearest.
 
 use crate::hdl::prelude::*;
 
@@ -30,11 +31,12 @@ pub struct BlendWeight {
 }
 
 signals! { for BlendWeight as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// On to the next point, whose share stands from the next tick on; not on the way to one.
+        /// Advances to the next point, whose share h is valid from the next tick on; not before
+        /// `done`.
         pub step: Bit,
-        /// Gives up a point that is under way; a step that comes with it is not taken.
+        /// Aborts the point that is being computed; a step in the same tick is ignored.
         pub halt: Bit,
         /// A pass begins: its factors are copied.
         pub copy: Bit,
@@ -49,17 +51,17 @@ signals! { for BlendWeight as c;
     pub struct Reg {
         /// A pass begins with this tick.
         pub begins: Bit = 0,
-        /// Which.
+        /// Number of the pass.
         pass: U(2) as States(PASSES) = 0,
-        /// What is multiplied: h, u; in the third pass the bits of h that are yet to come.
+        /// Multiplicand: h, then u; in the third pass the remaining bits of h.
         factor: U(c.coefficient) as Hex = 0,
-        /// Bits of what it is multiplied by, h, 2h − u, and of the weight, that are yet to come.
+        /// Remaining bits of the multiplier, h, then 2h − u, and of the weight.
         bits: U(c.coefficient) as Hex = 0,
-        /// The product so far, by the weight of the bit to come.
+        /// Partial product, in units of the next bit's weight.
         sum: U(c.coefficient) = 0,
         /// The bit below the sum: a half.
         half: Bit = 0,
-        /// The new point stands in this tick.
+        /// The new point is valid in this tick.
         pub done: Bit = 0,
     }
     /// Nets.

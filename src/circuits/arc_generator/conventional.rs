@@ -46,14 +46,14 @@ const ELEMENTS: &[&str] = &[
 pub struct Conventional {
     /// Its widths, by name.
     pub widths: Widths,
-    /// Width of the number of a record: so many bits number those that wait.
+    /// Width of a record number, in bits: the buffer holds 2^`records` records.
     pub records: usize,
-    /// How the rotation rounds.
+    /// Rounding of the rotation.
     pub rounding: Rounding,
 }
 
 impl Conventional {
-    /// A generator of the full widths whose rotation rounds by `rounding`.
+    /// Creates a generator of the full widths whose rotation rounds by `rounding`.
     pub const fn new(rounding: Rounding) -> Self {
         Conventional {
             widths: Widths::FULL,
@@ -68,8 +68,8 @@ impl Conventional {
         1 + self.cordic().latency() + (control - 1) + control
     }
 
-    /// The shortest sampling time, in ticks, in which the first point behind the last of the segment
-    /// before is made.
+    /// Shortest sampling time, in ticks, in which the first point after the end of a segment is
+    /// ready.
     pub const fn least_period(&self) -> u64 {
         self.memory().latency() + 3 + self.latency() + 1
     }
@@ -150,7 +150,7 @@ signals! { for Conventional as c;
     pub struct Parts {
         /// Sampling time.
         pub sample_counter: Part<EnableCounter>(EnableCounter { width: c.widths.period }),
-        /// Coefficients of the segments to come.
+        /// Coefficients of the next segments.
         pub memory: Part<RecordMemory>(c.memory()),
         /// Segment after segment.
         pub sequencer: Part<RecordSequencer>(c.widths.sequencer()),
@@ -160,15 +160,15 @@ signals! { for Conventional as c;
         pub angle_step: Part<AngleStep>(AngleStep { width: c.widths.coefficient }),
         /// Its sine and cosine.
         pub cordic: Part<Cordic>(c.cordic()),
-        /// The same as coefficients.
+        /// Sine, cosine and versine as coefficients.
         pub words: Part<SineWords>(c.words()),
-        /// Which bit of them the matrix is at.
+        /// Bit index of the matrix in them.
         pub matrix_control: Part<CoefficientControl>(c.control()),
         /// The axis.
         pub axis: Part<AxisTerms>(c.axis()),
         /// The matrix \[2\].
         pub elements: [Part<MatrixElement>(c.element(k)); k in 9] as Elements(ELEMENTS),
-        /// Which bit of it the rotation is at.
+        /// Bit index of the rotation in the matrix.
         pub rotation_control: Part<CoefficientControl>(c.control()),
         /// X, Y and Z.
         pub rows: [Part<VectorRow>(c.row(k as u64)); k in 3] as Elements(ROWS),

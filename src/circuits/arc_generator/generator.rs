@@ -22,7 +22,7 @@ use crate::hdl::prelude::*;
 
 /// Names of the difference engines.
 const ENGINES: &[&str] = &["engine_x", "engine_y", "engine_z"];
-/// Names of what gives the commands.
+/// Instance names of the position commands.
 pub(super) const COMMANDS: &[&str] = &["command_x", "command_y", "command_z"];
 
 /// Arc generator.
@@ -33,16 +33,16 @@ pub(super) const COMMANDS: &[&str] = &["command_x", "command_y", "command_z"];
 pub struct ArcGenerator {
     /// Its widths, by name.
     pub widths: Widths,
-    /// Width of the number of a record: so many bits number those that wait.
+    /// Width of a record number, in bits: the buffer holds 2^`records` records.
     pub records: usize,
-    /// How the rotation rounds.
+    /// Rounding of the rotation.
     pub rounding: Rounding,
-    /// How blends and lines are made.
+    /// Method for blends and lines.
     pub blend: Blend,
 }
 
 impl ArcGenerator {
-    /// A generator of the full widths whose rotation rounds by `rounding`.
+    /// Creates a generator of the full widths whose rotation rounds by `rounding`.
     pub const fn new(rounding: Rounding, blend: Blend) -> Self {
         ArcGenerator {
             widths: blend.widths(Widths::FULL),
@@ -57,8 +57,8 @@ impl ArcGenerator {
         self.memory().latency() + 2
     }
 
-    /// The shortest sampling time, in ticks, in which the first point of any segment is made behind
-    /// the last of the segment before.
+    /// Shortest sampling time, in ticks, in which the first point after the end of any segment is
+    /// ready.
     pub const fn least_period(&self) -> u64 {
         let latency = match self.blend {
             Blend::Differences => self.rotation().latency(),
@@ -93,7 +93,7 @@ impl ArcGenerator {
         }
     }
 
-    /// How many coordinates have a difference engine.
+    /// Number of coordinates with a difference engine.
     const fn engines(&self) -> usize {
         match self.blend {
             Blend::Differences => 3,
@@ -113,13 +113,13 @@ signals! { for Widths as c;
     pub struct Segments {
         /// Records of segments.
         pub record: RecordWrite(&c.data) as Flat,
-        /// Begins a path, unless one is under way or no segment waits.
+        /// Starts a path, unless one is running or no segment is waiting.
         pub start: Bit,
     }
 }
 
 signals! { for (ArcGenerator, Conventional) as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The path.
         pub segments: Segments(&c.widths) as Flat,
@@ -128,7 +128,7 @@ signals! { for (ArcGenerator, Conventional) as c;
         /// Ts: ticks from one point to the next.
         pub sample_period: U(c.widths.period),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// Position command of x in counts.
         pub x: I(c.widths.position) as Analog,
@@ -136,11 +136,11 @@ signals! { for (ArcGenerator, Conventional) as c;
         pub y: I(c.widths.position) as Analog,
         /// Position command of z.
         pub z: I(c.widths.position) as Analog,
-        /// New commands stand in this tick.
+        /// New commands are valid in this tick.
         pub sampled: Bit,
         /// There is a free record.
         pub ready: Bit,
-        /// A path is under way.
+        /// A path is running.
         pub busy: Bit,
         /// The segment that makes the points.
         pub kind: U(2) as States(record_memory::KINDS),
@@ -156,7 +156,7 @@ signals! { for ArcGenerator as c;
     pub struct Parts {
         /// Sampling time.
         pub sample_counter: Part<EnableCounter>(EnableCounter { width: c.widths.period }),
-        /// Coefficients of the segments to come.
+        /// Coefficients of the next segments.
         pub memory: Part<RecordMemory>(c.memory()),
         /// Segment after segment.
         pub sequencer: Part<RecordSequencer>(c.sequencer()),
@@ -175,7 +175,7 @@ signals! { for ArcGenerator as c;
 }
 
 impl Segments {
-    /// They for their memory, beside what the sequencer takes of it.
+    /// Inputs of the record memory: these ports, and the signals of the sequencer.
     pub(super) fn to_memory(
         &self,
         sequencer: &record_sequencer::Reg<Seen>,
@@ -190,7 +190,7 @@ impl Segments {
     }
 }
 
-/// The ports out of a generator with these circuits inside.
+/// Output ports of a generator with these circuits inside.
 pub(super) fn ports_out(
     commands: &[Settled<PositionCommand>],
     memory: &Settled<RecordMemory>,

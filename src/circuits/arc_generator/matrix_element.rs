@@ -1,5 +1,5 @@
-//! Element of the matrix \[2\]: a product of the axis times vers Δθ and a component times sin Δθ, or
-//! on the diagonal one times cos Δθ, both at once, a bit of the words a tick.
+//! Element of the matrix \[2\]: a product of the axis times vers Δθ and a component times sin Δθ,
+//! or on the diagonal one times cos Δθ, both at once, one bit per tick.
 //!
 //! ```text
 //!                          ┌────────────────┐
@@ -9,8 +9,8 @@
 //!                          └────────────────┘
 //! ```
 //!
-//! As in a [`RotationRow`](super::RotationRow) the sum is halved behind a bit of the fraction, and
-//! what falls off last rounds it.
+//! The sum is halved after each fraction bit, as in a [`RotationRow`](super::RotationRow); the
+//! last bit shifted out rounds the result.
 
 use super::rotation_row::halved;
 use crate::hdl::prelude::*;
@@ -27,12 +27,12 @@ pub enum Sign {
 
 /// Element of the matrix.
 ///
-/// The entry stands while the bit behind the last is there, and until the next `copy`.
+/// The entry is valid from the tick after the sign bit until the next `copy`.
 #[derive(Debug, Clone)]
 pub struct MatrixElement {
     /// C: width of a coefficient.
     pub coefficient: usize,
-    /// Of the term with `turn`.
+    /// Sign of the term with `turn`.
     pub sign: Sign,
 }
 
@@ -44,7 +44,7 @@ impl MatrixElement {
 }
 
 signals! { for MatrixElement as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// A matrix begins.
         pub copy: Bit,
@@ -54,16 +54,16 @@ signals! { for MatrixElement as c;
         pub top: Bit,
         /// The bit of vers Δθ.
         pub versine_bit: Bit,
-        /// That of sin Δθ, on the diagonal of cos Δθ.
+        /// The bit of sin Δθ, on the diagonal of cos Δθ.
         pub turn_bit: Bit,
-        /// What vers Δθ is multiplied by: a product of the axis.
+        /// Multiplicand of vers Δθ: a product of the axis.
         pub product: I(c.coefficient),
-        /// What the other is multiplied by: a component of the axis, on the diagonal 1.
+        /// Multiplicand of `turn_bit`: a component of the axis, on the diagonal 1.
         pub turn: I(c.coefficient),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// The products so far, by the weight of the bit to come.
+        /// Partial sum of the products, in units of the next bit's weight.
         sum: I(c.sum()) = 0,
         /// The bit below the sum: a half.
         half: Bit = 0,
@@ -72,13 +72,13 @@ signals! { for MatrixElement as c;
     pub struct Net {
         /// The product where vers Δθ has the bit, else 0.
         term_product: I(c.sum()),
-        /// What the other is multiplied by where it has the bit, else 0.
+        /// `turn` where `turn_bit` is high, else 0.
         term_turn: I(c.sum()),
         /// Both terms.
         addend: I(c.sum()),
         /// The sum with them.
         total: I(c.sum()),
-        /// The sum with what rounds it.
+        /// Sum plus the rounding term.
         raised: I(c.sum()),
         /// The element, to the nearest.
         pub entry: U(c.coefficient) as Hex,

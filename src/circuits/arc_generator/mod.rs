@@ -11,7 +11,7 @@
 //! multiplied by one constant matrix a sample. What is known beforehand is computed once, in `f64`
 //! and exact integers; per sample the circuit adds, and on an arc multiplies by constants.
 //!
-//! What runs on the control computer is in [`jobs`](crate::jobs::arc_generator).
+//! Its program on the control computer is in [`jobs`](crate::jobs::arc_generator).
 //! `rtl_notes/arc_generator/README.md` is the note of this circuit.
 
 pub mod angle_step;
@@ -44,7 +44,7 @@ pub use sine_words::SineWords;
 pub use vector_row::VectorRow;
 pub use widths::Widths;
 
-/// How the rotation rounds its points to guard units.
+/// Rounding of the points of a rotation to guard units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Rounding {
@@ -66,7 +66,7 @@ impl Rounding {
     }
 }
 
-/// How the points of blends and lines are made.
+/// Method for the points of blends and lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Blend {
@@ -99,7 +99,7 @@ impl Blend {
         }
     }
 
-    /// The most samples of a blend: an even number, of which the modulus fits.
+    /// Largest number of samples of a blend: even, and its modulus fits.
     #[must_use]
     pub fn most_samples(self, widths: &Widths) -> u64 {
         match self {

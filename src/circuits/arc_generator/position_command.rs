@@ -32,7 +32,7 @@ impl PositionCommand {
 }
 
 signals! { for PositionCommand as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Word of a record.
         pub record: RecordWord(&c.widths.data) as Flat,
@@ -56,7 +56,7 @@ signals! { for PositionCommand as c;
     pub struct Net {
         /// The coordinate with its guard bits.
         point: I(c.widths.point) as Analog,
-        /// The same and half a count.
+        /// Coordinate with its guard bits plus half a count.
         raised: I(c.widths.point),
         /// The coordinate to the nearest count, a half upwards.
         nearest: I(c.widths.position),

@@ -18,13 +18,13 @@ use crate::hdl::prelude::*;
 
 /// Rotation of vectors by a matrix of coefficients; see [`RotationRow`].
 ///
-/// The new point stands B + 4 ticks after `step`, where B bits of a coefficient are fraction: all but
-/// two.
+/// The new point is valid B + 4 ticks after `step`, where B is the number of fraction bits of a
+/// coefficient: all but two.
 #[derive(Debug, Clone)]
 pub struct Rotation {
     /// Widths of points, coefficients and records.
     pub widths: Widths,
-    /// How the points are rounded.
+    /// Rounding of the points.
     pub rounding: Rounding,
 }
 
@@ -49,23 +49,23 @@ impl Rotation {
 }
 
 signals! { for Rotation as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Word of a record.
         pub record: RecordWord(&c.widths.data) as Flat,
-        /// On to the next point; no word is loaded on the way to it.
+        /// Advances to the next point; no record word may come before `done`.
         pub step: Bit,
-        /// Gives a step up that is under way.
+        /// Aborts the step that is running.
         pub halt: Bit,
     }
     /// The blocks.
     pub struct Parts {
-        /// Which bit it is at.
+        /// Bit index of the coefficients.
         pub control: Part<CoefficientControl>(c.control()),
         /// X, Y and Z.
         pub rows: [Part<RotationRow>(c.row(k as u64)); k in 3] as Elements(ROWS),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// X of the vector from the centre to the point.
         pub x: I(c.widths.point) as Analog,
@@ -73,7 +73,7 @@ signals! { for Rotation as c;
         pub y: I(c.widths.point) as Analog,
         /// Z of it.
         pub z: I(c.widths.point) as Analog,
-        /// They are new in this tick.
+        /// High in the tick with new values.
         pub done: Bit,
     }
 }

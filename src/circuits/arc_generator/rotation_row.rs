@@ -1,5 +1,5 @@
-//! A row of the rotation stage: one coordinate of R·GP, three products at once, a bit of the
-//! coefficients a tick.
+//! Row of the rotation stage: one coordinate of R·GP, three products at once, one bit of the
+//! coefficients per tick.
 //!
 //! ```text
 //!                         ┌──────────────┐
@@ -10,9 +10,9 @@
 //!                         └──────────────┘
 //! ```
 //!
-//! The sum of those of x, y, z whose coefficient has the bit is added to `sum`, which is then
-//! halved; the bit that falls off last is the half by which the result is rounded. So nothing is
-//! lost before the rounding, and no word is wider than the sum.
+//! Each tick adds to `sum` those of x, y, z whose coefficient has the bit, then halves it; the
+//! last bit shifted out is the half that rounds the result. Nothing is lost before the rounding,
+//! and no word is wider than the sum.
 
 use super::{Rounding, VectorRow, Widths};
 use crate::circuits::blocks::RecordWord;
@@ -28,7 +28,7 @@ pub struct RotationRow {
     pub widths: Widths,
     /// 0, 1, 2 for x, y, z: it decides which words of a record the row takes.
     pub coordinate: u64,
-    /// How its result is rounded.
+    /// Rounding of its result.
     pub rounding: Rounding,
 }
 
@@ -39,13 +39,13 @@ impl RotationRow {
     }
 }
 
-/// Width of a row's sum: three words of the vector, doubled, and what was there.
+/// Width of a row's sum: three words of the vector, doubled, and the previous sum.
 pub(super) const fn sum(widths: &Widths) -> usize {
     widths.point + 3
 }
 
 signals! { for RotationRow as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Word of a record.
         pub record: RecordWord(&c.widths.data) as Flat,
@@ -80,15 +80,16 @@ signals! { for RotationRow as c;
 }
 
 signals! { for (RotationRow, VectorRow) as c;
-    /// Three products under way, also those of a [row of a matrix that changes](super::vector_row).
+    /// Three products in progress, also those of a [row of a matrix that
+    /// changes](super::vector_row).
     pub struct Products {
-        /// Bits of the coefficient of x that are yet to come.
+        /// Remaining bits of the coefficient of x.
         bits_x: U(c.widths.coefficient) as Hex = 0,
-        /// Bits of that of y.
+        /// Remaining bits of the coefficient of y.
         bits_y: U(c.widths.coefficient) as Hex = 0,
-        /// Bits of that of z.
+        /// Remaining bits of the coefficient of z.
         bits_z: U(c.widths.coefficient) as Hex = 0,
-        /// The products so far, by the weight of the bit to come.
+        /// Partial sum of the products, in units of the next bit's weight.
         sum: I(c.sum()) = 0,
         /// The bit below the sum: a half.
         half: Bit = 0,
@@ -97,15 +98,15 @@ signals! { for (RotationRow, VectorRow) as c;
     pub struct Net {
         /// X where its coefficient has the bit, else 0.
         term_x: I(c.sum()),
-        /// Y likewise.
+        /// Y where its coefficient has the bit, else 0.
         term_y: I(c.sum()),
-        /// Z likewise.
+        /// Z where its coefficient has the bit, else 0.
         term_z: I(c.sum()),
         /// The three terms added.
         addend: I(c.sum()),
         /// The sum with it.
         total: I(c.sum()),
-        /// The sum with what rounds it.
+        /// Sum plus the rounding term.
         raised: I(c.sum()),
         /// The coordinate of the new point.
         pub(super) rounded: I(c.widths.point),
@@ -113,7 +114,7 @@ signals! { for (RotationRow, VectorRow) as c;
 }
 
 impl Products {
-    /// What the next bits add of a vector, and what the sum comes to; `top` where they are signs.
+    /// Returns the terms of the next bits and the new sum; `top` if the bits are signs.
     pub(super) fn nets(
         &self,
         [x, y, z]: [I; 3],
@@ -141,7 +142,7 @@ impl Products {
         }
     }
 
-    /// They after the edge, with the coefficients that are copied.
+    /// Returns the products after the edge; `copy` loads new coefficients.
     pub(super) fn after(&self, net: &Net, copy: Bit, fraction: Bit, by: [U; 3]) -> Products<Edge> {
         let (sum, half) = halved(net.total, self.half, copy, fraction);
         let bits = |by: U, bits: U| copy.mux(by, bits.shift_right(1));
@@ -155,7 +156,7 @@ impl Products {
     }
 }
 
-/// A sum and its half after the edge, behind a bit that was added to it.
+/// Returns sum and half after the edge; after a fraction bit the sum is halved.
 pub(super) fn halved(total: I, half: Bit, copy: Bit, fraction: Bit) -> (I, Bit) {
     // Without bits left the total is the sum.
     let sum = fraction.mux(total.shift_right(1), total);

@@ -1,5 +1,5 @@
-//! Words of sine and cosine: what CORDIC gives, rounded to coefficients, and vers = 1 − cos, all
-//! three handed on a bit a tick.
+//! Words of sine and cosine: the output of CORDIC, rounded to coefficients, and vers = 1 − cos;
+//! all three are output serially, one bit per tick.
 //!
 //! ```text
 //!           ┌────────────┐
@@ -16,22 +16,22 @@ pub const FINE: usize = 6;
 
 /// Words of sine and cosine.
 ///
-/// The lowest bits stand in the tick after `copy`, the next a tick later.
+/// The lowest bits are valid in the tick after `copy`, the next a tick later.
 #[derive(Debug, Clone)]
 pub struct SineWords {
-    /// C: width of a coefficient, of which all bits but two are fraction.
+    /// C: width of a coefficient; all bits but two are fraction.
     pub coefficient: usize,
 }
 
 impl SineWords {
-    /// Width of what CORDIC gives.
+    /// Width of the output of CORDIC.
     pub const fn radius(&self) -> usize {
         self.coefficient + FINE
     }
 }
 
 signals! { for SineWords as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The words are taken.
         pub copy: Bit,
@@ -42,7 +42,7 @@ signals! { for SineWords as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// Bits of the sine that are yet to come.
+        /// Remaining bits of the sine.
         sine: U(c.coefficient) as Hex = 0,
         /// Bits of the cosine.
         cosine: U(c.coefficient) as Hex = 0,
@@ -53,7 +53,7 @@ signals! { for SineWords as c;
     pub struct Net {
         /// sin Δθ and half a coefficient, without the bits below one.
         whole_sine: I(c.radius()),
-        /// cos Δθ likewise.
+        /// cos Δθ and half a coefficient, without the bits below one.
         whole_cosine: I(c.radius()),
         /// sin Δθ to the nearest coefficient.
         nearest_sine: I(c.coefficient),
@@ -61,11 +61,11 @@ signals! { for SineWords as c;
         nearest_cosine: I(c.coefficient),
         /// vers Δθ = 1 − cos Δθ.
         rest: I(c.coefficient),
-        /// The bit of the sine that the sums are at.
+        /// The current bit of the sine.
         pub sine_bit: Bit,
-        /// That of the cosine.
+        /// The current bit of the cosine.
         pub cosine_bit: Bit,
-        /// That of vers.
+        /// The current bit of the versine.
         pub versine_bit: Bit,
     }
 }

@@ -1,5 +1,5 @@
-//! Row of a rotation whose matrix is another one in every sample: as a
-//! [`RotationRow`](super::RotationRow), but that the coefficients come from the matrix.
+//! Row of a rotation whose matrix changes every sample: a [`RotationRow`](super::RotationRow)
+//! whose coefficients come from the matrix.
 //!
 //! ```text
 //!                         ┌────────────┐
@@ -26,7 +26,7 @@ pub struct VectorRow {
     pub widths: Widths,
     /// 0, 1, 2 for x, y, z: it decides which word of a record the row takes.
     pub coordinate: u64,
-    /// How its result is rounded.
+    /// Rounding of its result.
     pub rounding: Rounding,
 }
 
@@ -38,7 +38,7 @@ impl VectorRow {
 }
 
 signals! { for VectorRow as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Word of a record.
         pub record: RecordWord(&c.widths.data) as Flat,

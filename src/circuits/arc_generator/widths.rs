@@ -59,7 +59,7 @@ impl Widths {
         self.coefficient - 2
     }
 
-    /// What takes one record after the other.
+    /// Sequencer of the records.
     #[must_use]
     pub const fn sequencer(&self) -> RecordSequencer {
         RecordSequencer {
@@ -70,7 +70,7 @@ impl Widths {
         }
     }
 
-    /// What plays the blends and lines of a coordinate, 0, 1, 2 for x, y, z.
+    /// Difference engine for the blends and lines of a coordinate: 0, 1, 2 for x, y, z.
     #[must_use]
     pub const fn engine(&self, coordinate: u64) -> DifferenceEngine {
         let widths = difference_column::Widths {
@@ -114,7 +114,8 @@ impl Widths {
         (1 << (self.position - 1)) - 1
     }
 
-    /// Whether a coordinate so far from zero is rounded to a position command. `false` for NaN.
+    /// Returns true if a coordinate, in counts, can be rounded to a position command; false for
+    /// NaN.
     #[must_use]
     pub fn holds(&self, counts: f64) -> bool {
         holds(self.position, counts)

@@ -1,4 +1,4 @@
-//! Coefficient control: which bit of its coefficients a sequential product is at.
+//! Coefficient control: counts the bits of the coefficients of a sequential product.
 //!
 //! ```text
 //!         ┌─────────────────────┐
@@ -12,7 +12,7 @@
 
 use crate::hdl::prelude::*;
 
-/// Control for coefficients of which B = `coefficient` − 2 bits are fraction.
+/// Control for coefficients with B = `coefficient` − 2 fraction bits.
 ///
 /// `done` is high B + 4 ticks after `step`.
 #[derive(Debug, Clone)]
@@ -29,20 +29,20 @@ impl CoefficientControl {
 }
 
 signals! { for CoefficientControl as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// On to the next point; not taken while `busy`.
+        /// Advances to the next point; not taken while `busy`.
         pub step: Bit,
-        /// Gives a step up that is under way; one that comes with it is not taken.
+        /// Aborts a running step; a step in the same tick is ignored.
         pub halt: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// A step is under way.
+        /// A step is running.
         pub busy: Bit = 0,
-        /// The bit the rows are at; those of the fraction come first.
+        /// Index of the current bit; the fraction comes first.
         bit_index: U(6) = 0,
-        /// The new point stands in this tick.
+        /// The new point is valid in this tick.
         pub done: Bit = 0,
     }
     /// Nets.
@@ -55,7 +55,7 @@ signals! { for CoefficientControl as c;
         pub top: Bit,
         /// The sums are complete: they become the point.
         pub commit: Bit,
-        /// A step is under way after this tick.
+        /// A step is running after this tick.
         going: Bit,
     }
 }

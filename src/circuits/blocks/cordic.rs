@@ -32,14 +32,14 @@ impl Cordic {
 }
 
 signals! { for Cordic as c;
-    /// Ports in. What is given with `start` is taken in that tick and need not be held.
+    /// Input ports. Values given with `start` are taken in that tick and need not be held.
     pub struct In {
-        /// Begins, unless one is under way.
+        /// Starts, unless one is running.
         pub start: Bit,
-        /// Gives up what is under way; a start that comes with it is not taken.
+        /// Aborts; a start in the same tick is ignored.
         pub halt: Bit,
-        /// First coordinate of what is turned, with room for the vector's length times
-        /// [`GAIN`](cordic_state::GAIN); of a point of a circle the radius divided by it.
+        /// First coordinate of the vector, with room for its length times
+        /// [`GAIN`](cordic_state::GAIN); for a point of a circle the radius divided by it.
         pub radius: I(c.radius),
         /// The second, 0 for a point of a circle.
         pub offset: I(c.radius),
@@ -55,13 +55,13 @@ signals! { for Cordic as c;
         /// `across` by 2^−iteration.
         pub shift_across: Part<Shifter>(Shifter { width: c.radius }),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// GAIN · (radius · cos angle − offset · sin angle), from `done` on.
         pub along: I(c.radius) as Analog,
         /// GAIN · (radius · sin angle + offset · cos angle), from `done` on.
         pub across: I(c.radius) as Analog,
-        /// The point stands in this tick.
+        /// The point is valid in this tick.
         pub done: Bit,
         /// A start is not taken.
         pub busy: Bit,

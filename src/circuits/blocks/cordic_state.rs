@@ -10,19 +10,22 @@
 //!                           └──────────────┘
 //! ```
 //!
-//! The vector (radius, offset) is first turned by whole quarters, so what is left is within an eighth of
-//! a turn of zero. Each turn lengthens the vector by the same factor, whatever its sign: by their
-//! product, [`GAIN`], in all. What is to come out in its own length is divided by it beforehand.
+//! The vector (radius, offset) is first turned by whole quarters, so the rest of the angle is
+//! within an eighth of a turn of zero. Each iteration lengthens the vector by a fixed factor,
+//! whatever its sign: by their product, [`GAIN`], in all. To get a vector in its own length,
+//! divide it by the gain beforehand.
 
 use crate::hdl::prelude::*;
 use std::f64::consts::TAU;
 
-/// By what a vector is lengthened: the product of √(1 + 4^−n) over all iterations of a word.
+/// Factor by which a vector is lengthened: the product of √(1 + 4^−n) over all iterations of a
+/// word.
 pub const GAIN: f64 = 1.646_760_258_121_065_6;
 
 /// Registers of a CORDIC.
 ///
-/// There are as many iterations as the angle has bits: what is left then is below one of its units.
+/// There are as many iterations as the angle has bits: the remaining angle is then below one of
+/// its units.
 #[derive(Debug, Clone)]
 pub struct CordicState {
     /// R: width of a coordinate in bits.
@@ -43,13 +46,13 @@ impl CordicState {
 }
 
 signals! { for CordicState as c;
-    /// Ports in. What is given with `start` is taken in that tick and need not be held.
+    /// Input ports. Values given with `start` are taken in that tick and need not be held.
     pub struct In {
-        /// Begins, unless one is under way.
+        /// Starts, unless one is running.
         pub start: Bit,
-        /// Gives up what is under way; a start that comes with it is not taken.
+        /// Aborts; a start in the same tick is ignored.
         pub halt: Bit,
-        /// First coordinate of what is turned, with room for the vector's length times [`GAIN`].
+        /// First coordinate of the vector, with room for its length times [`GAIN`].
         pub radius: I(c.radius),
         /// The second, 0 for a point of a circle.
         pub offset: I(c.radius),
@@ -62,7 +65,7 @@ signals! { for CordicState as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// A turn is under way.
+        /// A turn is running.
         pub busy: Bit = 0,
         /// The iteration.
         pub iteration: U(6) = 0,
@@ -72,7 +75,7 @@ signals! { for CordicState as c;
         pub across: I(c.radius) as Analog = 0,
         /// The angle that is left.
         left: I(c.angle) as Analog = 0,
-        /// The point stands in this tick.
+        /// The point is valid in this tick.
         pub done: Bit = 0,
     }
     /// Nets.
@@ -81,19 +84,20 @@ signals! { for CordicState as c;
         take: Bit,
         /// The iteration is the last.
         last: Bit,
-        /// A turn goes on after this tick.
+        /// The turn continues after this tick.
         goes_on: Bit,
         /// The angle is nearer to the next quarter: the eighths are rounded.
         raised: U(c.angle),
         /// The nearest quarter is the first or third: the coordinates change places.
         upright: Bit,
-        /// It is the second or third: `across` changes its sign. `along` does in the first and second.
+        /// The nearest quarter is the second or third: `across` changes its sign. `along` does in
+        /// the first and second.
         half: Bit,
         /// The nearest quarter.
         quarter: U(c.angle),
-        /// The coordinate that it puts along, but for the sign.
+        /// The coordinate along after the quarters, but for the sign.
         first: I(c.radius),
-        /// The one that it puts across, likewise.
+        /// The coordinate across after the quarters, but for the sign.
         second: I(c.radius),
         /// The vector turned by it, along.
         begin_along: I(c.radius),
@@ -101,7 +105,7 @@ signals! { for CordicState as c;
         begin_across: I(c.radius),
         /// The angle without its quarters.
         rest: I(c.angle),
-        /// What is left is below zero: the vector is turned back.
+        /// The remaining angle is below zero: the vector is turned back.
         back: Bit,
         /// arctan 2^−iteration.
         turn: I(c.angle),

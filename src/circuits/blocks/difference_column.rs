@@ -11,8 +11,8 @@
 //!
 //! The number is `whole + part / modulus` with `0 <= part < modulus`, so a quotient is carried
 //! without an error whatever the modulus, and without a divider: the part wraps at the modulus and
-//! carries into the whole. The whole wraps at its width; sums are linear, so it comes out right
-//! whenever the number itself fits, whatever the columns below did on the way.
+//! carries into the whole. The whole wraps at its width; sums are linear, so the result is right
+//! whenever the number itself fits, even if the columns below have wrapped.
 
 use super::record_memory::RecordWord;
 use crate::hdl::Registers;
@@ -51,11 +51,11 @@ pub struct DifferenceColumn {
 }
 
 signals! { for DifferenceColumn as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Word of a record.
         pub record: RecordWord(&c.widths.data) as Flat,
-        /// What a part wraps at: 1 to 2^(F − 1).
+        /// Modulus of the parts: 1 to 2^(F − 1).
         pub modulus: U(c.widths.part),
         /// Adds the column below; not with `load`.
         pub step: Bit,
@@ -68,14 +68,14 @@ signals! { for DifferenceColumn as c;
     pub struct Reg {
         /// The whole: the number, rounded down.
         pub whole: I(c.widths.whole) as Analog = 0,
-        /// What it is above the whole, in parts of the modulus.
+        /// Rest above the whole, in units of 1/modulus.
         pub part: U(c.widths.part) = 0,
     }
     /// Nets.
     pub struct Net {
         /// Sum of the parts; below 2^F, since both are below the modulus.
         sum: U(c.widths.part),
-        /// They make a whole.
+        /// The sum of the parts carries into the whole.
         carry: Bit,
         /// The word is this column's whole.
         load_whole: Bit,

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! A polynomial of the fourth degree at equal distances has constant fourth differences. A step
-//! adds each difference to what is above it, all from the values before the step, so the value of
+//! adds each difference to the one above it, all from the values before the step, so the value of
 //! the next sample costs four additions and no product. With the first difference alone it is a
 //! line.
 
@@ -20,7 +20,7 @@ use crate::hdl::prelude::*;
 
 /// Difference engine of a coordinate.
 ///
-/// The value of the next sample stands in the tick after `step`.
+/// The value of the next sample is valid in the tick after `step`.
 #[derive(Debug, Clone)]
 pub struct DifferenceEngine {
     /// Widths of its numbers and of the records.
@@ -51,11 +51,11 @@ impl DifferenceEngine {
 }
 
 signals! { for DifferenceEngine as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Word of a record.
         pub record: RecordWord(&c.widths.data) as Flat,
-        /// What the parts are parts of: M⁴ in a blend of M samples, the samples of a line.
+        /// Modulus of the parts: M⁴ in a blend of M samples, the number of samples of a line.
         pub modulus: U(c.widths.part),
         /// On to the next sample; not with `load`.
         pub step: Bit,
@@ -73,7 +73,7 @@ signals! { for DifferenceEngine as c;
         /// Fourth difference, constant.
         pub d4: Part<DifferenceColumn>(c.difference(4)),
     }
-    /// Port out.
+    /// Output port.
     pub struct Net {
         /// The coordinate, rounded to the nearest.
         pub nearest: I(c.widths.whole) as Analog,

@@ -1,4 +1,4 @@
-//! Enable counter: one tick of enable in every `period` ticks, for whatever is slower than the
+//! Enable counter: one tick of enable in every `period` ticks, for blocks slower than the
 //! reference clock (scan, sample, velocity loop).
 //!
 //! ```text
@@ -7,8 +7,8 @@
 //!            └────────────────┘
 //! ```
 //!
-//! It is the unit-time counter 30 of JP3640909B2 (¶0016) too, which counts the reference clock and
-//! pulses RST once per unit time: `period` is T, which the surrounding circuit keeps constant
+//! This is also the unit-time counter 30 of JP3640909B2 (¶0016), which counts the reference clock
+//! and pulses RST once per unit time: `period` is T, which the surrounding circuit keeps constant
 //! between two RST, and `enable` is RST.
 //!
 //! The end of a period is `count + 1 >= period`, so no period makes the counter run to its wrap.
@@ -26,7 +26,7 @@ pub struct EnableCounter {
 }
 
 signals! { for EnableCounter as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Ticks from one enable to the next; 0 counts as 1.
         pub period: U(c.width),

@@ -44,9 +44,9 @@ impl MulDiv {
 }
 
 signals! { for MulDiv as c;
-    /// Ports in. What is given with `start` is taken in that tick and need not be held.
+    /// Input ports. Values given with `start` are taken in that tick and need not be held.
     pub struct In {
-        /// Begins, unless one is under way.
+        /// Starts, unless one is running.
         pub start: Bit,
         /// The product with its addend is wanted, no division: it is in `quotient`.
         pub product_only: Bit,
@@ -56,12 +56,12 @@ signals! { for MulDiv as c;
         pub multiplier: U(c.multiplier),
         /// Added to the product; together they are below 2^Q.
         pub addend: U(c.word),
-        /// What the sum is divided by, below 2^(Q − 1). By 0 the quotient is all ones.
+        /// Divisor of the sum, below 2^(Q − 1). By 0 the quotient is all ones.
         pub divisor: U(c.word),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// What it does.
+        /// State of the sequence.
         state: U(2) as States(STATES) = 0,
         /// Ticks that the state has lasted.
         count: U(6) = 0,
@@ -69,15 +69,16 @@ signals! { for MulDiv as c;
         undivided: Bit = 0,
         /// First factor times the weight of the multiplier's lowest bit.
         shifted: U(c.word) = 0,
-        /// Bits of the second factor that are yet to come.
+        /// Remaining bits of the second factor.
         factor: U(c.multiplier) = 0,
-        /// What is divided by.
+        /// The divisor.
         by: U(c.word) = 0,
         /// Sum of the product, then dividend above and quotient below; the result.
         pub quotient: U(c.word) = 0,
-        /// What is left of the dividend.
+        /// Remainder of the division.
         pub remainder: U(c.word) = 0,
-        /// A result stands at `quotient` and `remainder` from this tick on, until the next start.
+        /// A result is valid at `quotient` and `remainder` from this tick on, until the next
+        /// start.
         pub done: Bit = 0,
     }
     /// Nets.
@@ -86,7 +87,7 @@ signals! { for MulDiv as c;
         pub busy: Bit,
         /// A start is taken.
         take: Bit,
-        /// The remainder with the dividend's highest bit behind it.
+        /// The remainder with the dividend's highest bit appended.
         partial: U(c.word),
         /// The divisor goes into `partial`.
         fits: Bit,

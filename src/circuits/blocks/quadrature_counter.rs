@@ -10,12 +10,12 @@
 //! ```
 //!
 //! Each channel goes through two flip-flops, since it is asynchronous, and a third holds its level
-//! of a tick ago: every edge of either channel counts (x4). A level that stands at the pin from
+//! of the tick before: every edge of either channel counts (x4). A level that is at the pin from
 //! tick n on is in `position` from tick n + 3 on.
 //!
 //! The text says only that the pulses are counted. Synchronisers, x4, the flag and the clear are
-//! additions. Nothing is counted until the three flip-flops hold samples, whatever the level at
-//! which the channels stand.
+//! additions. Nothing is counted until the three flip-flops hold samples, whatever the initial
+//! levels of the channels.
 
 use crate::hdl::prelude::*;
 
@@ -23,7 +23,7 @@ use crate::hdl::prelude::*;
 const FILLED: u64 = 3;
 /// The flip-flop of a channel that holds its present level.
 const PRESENT: usize = 1;
-/// That of the level before.
+/// The flip-flop that holds the level before.
 const PREVIOUS: usize = 2;
 
 /// Quadrature counter with a position that wraps.
@@ -34,7 +34,7 @@ pub struct QuadratureCounter {
 }
 
 signals! { for QuadratureCounter as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Channel A of the encoder, asynchronous.
         pub a: Bit,
@@ -48,7 +48,7 @@ signals! { for QuadratureCounter as c;
         /// The last three samples of channel A: bit 0 is the flip-flop at the pin, read by nothing
         /// but the second; bit 1 the present level; bit 2 the level a tick before it.
         sync_a: U(3) as Hex = 0,
-        /// Those of channel B.
+        /// The last three samples of channel B, in this order too.
         sync_b: U(3) as Hex = 0,
         /// Samples taken since power-on, up to 3: from then on the levels above are real.
         samples: U(2),

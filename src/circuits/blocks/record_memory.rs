@@ -1,4 +1,5 @@
-//! Record memory: the records of the segments to come, and the way their words go to the blocks.
+//! Record memory: a buffer for the records of the next segments, which sends their words to the
+//! blocks.
 //!
 //! ```text
 //!                           ┌────────────────┐
@@ -48,16 +49,16 @@ impl RecordMemory {
 }
 
 signals! { for RecordMemory as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// Records, as they are written.
+        /// Records to write.
         pub record: RecordWrite(&c.data) as Flat,
-        /// The next record goes to the blocks, if there is one and none is on its way.
+        /// Sends the next record to the blocks, if there is one and none is being sent.
         pub take: Bit,
-        /// The kind of the record that is on its way, from its second word on.
+        /// The kind of the record that is being sent, valid from its second word on.
         pub kind: U(2) as States(KINDS),
-        /// Forgets the records that wait, one that is completed in this tick too, and the rest of
-        /// one that is on its way.
+        /// Discards the waiting records, also one that is completed in this tick, and the rest of
+        /// the record that is being sent.
         pub flush: Bit,
     }
     /// Flip-flops and memory.
@@ -66,15 +67,15 @@ signals! { for RecordMemory as c;
         records: Ram(c.address(), c.data),
         /// The free record.
         write_record: U(c.record) = 0,
-        /// The record that is taken next, or is on its way.
+        /// The record that is taken next, or is being sent.
         read_record: U(c.record) = 0,
-        /// All records wait.
+        /// All records are in use.
         full: Bit = 0,
-        /// A record is on its way: its words are read.
+        /// A record is being sent: its words are read.
         reading: Bit = 0,
         /// The word that is read.
         read_word: U(5) = 0,
-        /// A word of a record stands at `word` and `data`.
+        /// A word of a record is at `word` and `data`.
         pub load: Bit = 0,
         /// Its number.
         pub word: U(5) = 0,
@@ -91,11 +92,11 @@ signals! { for RecordMemory as c;
         pub load_rotation: Bit,
         /// There is a free record.
         pub ready: Bit,
-        /// A record waits, or is on its way.
+        /// A record is waiting or being sent.
         pub available: Bit,
-        /// Where is written.
+        /// Write address.
         write_address: U(c.address()) as Hex,
-        /// Where is read.
+        /// Read address.
         read_address: U(c.address()) as Hex,
         /// A word is written.
         store: Bit,
@@ -111,7 +112,7 @@ signals! { for RecordMemory as c;
 }
 
 signals! { for usize as data;
-    /// A record as the control computer writes it, where a word has so many bits.
+    /// A record as the control computer writes it; `data` is the width of a word.
     pub struct RecordWrite {
         /// Writes a word of the free record; not taken unless `ready`.
         pub write: Bit,
@@ -119,10 +120,11 @@ signals! { for usize as data;
         pub write_word: U(5),
         /// Its data.
         pub write_data: U(*data) as Hex,
-        /// The free record is complete, with what is written in this tick; not taken unless `ready`.
+        /// The free record is complete, with the word written in this tick; ignored unless
+        /// `ready`.
         pub push: Bit,
     }
-    /// What a word of a record is on its way to the blocks, where a word has so many bits.
+    /// Word of a record on its way to the blocks; `data` is its width.
     pub struct RecordWord {
         /// `data` is word `word` of a record.
         pub load: Bit,
@@ -142,7 +144,7 @@ impl Reg<Seen> {
 }
 
 impl RecordWord {
-    /// It is the word of that number, which is a parameter of that name.
+    /// High if this is the word of that number, which is printed as a parameter `name`.
     #[track_caller]
     pub fn is(&self, name: &'static str, number: u64) -> Bit {
         self.load & self.word.equals(U::parameter(name, number, 5))
@@ -150,7 +152,8 @@ impl RecordWord {
 }
 
 impl RecordWord<Value> {
-    /// Whether it is one of these words, or low where there is none: as far as a proof goes.
+    /// Returns true if the word is one of these, or, without a word, if all is low: the range of a
+    /// proof.
     pub(crate) fn is_among(&self, words: &[u64]) -> bool {
         match self.load {
             true => words.contains(&self.word),

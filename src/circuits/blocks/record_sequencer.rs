@@ -14,10 +14,10 @@
 //! blend, arc, blend, line. The sequencer does not tell these apart: each segment begins at the
 //! point where the one before it has ended, and says how many samples it has.
 //!
-//! With `sample` the point becomes the command, and the next point is made at once: it is ready
-//! long before the next `sample`. After the last point of a segment the next segment is fetched
-//! first. The first point of a path is the beginning of its first segment. A segment of 0 samples
-//! gives the point where it begins.
+//! With `sample` the point becomes the command, and the next point is computed at once: it is
+//! ready long before the next `sample`. After the last point of a segment the next segment is
+//! fetched first. The first point of a path is the start of its first segment. A segment of 0
+//! samples outputs its starting point.
 
 use super::record_memory::{ARC, KINDS, RecordWord};
 use crate::hdl::prelude::*;
@@ -39,16 +39,16 @@ pub struct RecordSequencer {
     pub samples: usize,
     /// Width of a word of a record.
     pub data: usize,
-    /// The points of blends and lines are waited for as those of arcs are.
+    /// True to wait for `rotated` on blends and lines too, as on arcs.
     pub waits: bool,
 }
 
 signals! { for RecordSequencer as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// Begins a path, unless one is under way or no segment waits.
+        /// Starts a path, unless one is running or no segment is waiting.
         pub start: Bit,
-        /// Ends the path: the commands stay where they are, what waits is forgotten.
+        /// Ends the path: the commands keep their values, waiting segments are discarded.
         pub halt: Bit,
         /// A sampling time begins.
         pub sample: Bit,
@@ -58,12 +58,12 @@ signals! { for RecordSequencer as c;
         pub record: RecordWord(&c.data) as Flat,
         /// The record is complete.
         pub loaded: Bit,
-        /// The rotation has its next point, or who else is waited for.
+        /// The rotation, or another block that is waited for, has its next point.
         pub rotated: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// What it does.
+        /// State of the sequence.
         pub(crate) state: U(3) as States(STATES) = 0,
         /// The point is the first of a path.
         first: Bit = 0,
@@ -71,15 +71,15 @@ signals! { for RecordSequencer as c;
         pub kind: U(2) as States(KINDS) = 0,
         /// The segment ends at rest.
         rests: Bit = 0,
-        /// Points of the segment that are yet to be made.
+        /// Remaining points of the segment.
         remaining: U(c.samples) as Analog = 0,
         /// The modulus of the segment's differences.
         pub modulus: U(c.modulus) = 0,
         /// The next record is fetched.
         pub take: Bit = 0,
-        /// The rotation makes the next point, or who else is waited for.
+        /// Starts the next point in the rotation, or in another block that is waited for.
         pub rotate: Bit = 0,
-        /// New commands stand in this tick.
+        /// New commands are valid in this tick.
         pub sampled: Bit = 0,
         /// A sampling time began before the point was ready; until the next path begins.
         pub late: Bit = 0,
@@ -102,7 +102,7 @@ signals! { for RecordSequencer as c;
         pub advance: Bit,
         /// The point becomes the command.
         pub present: Bit,
-        /// A path is under way.
+        /// A path is running.
         pub busy: Bit,
         /// A sampling time begins too early.
         hurried: Bit,
@@ -170,7 +170,7 @@ impl Circuit for RecordSequencer {
     }
 }
 
-/// What the control does next, in the words of its description: `None` where it stays as it is.
+/// Returns the next state by the state chart; `None` if the state stays.
 fn after(q: &Reg<Value>, i: &In<Value>, waits: bool) -> Option<u64> {
     let on = |condition: bool, state| condition.then_some(state);
     let next = on(i.available, FETCH).unwrap_or(IDLE);

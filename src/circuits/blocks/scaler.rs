@@ -10,8 +10,8 @@
 //! ```
 //!
 //! A gain has one bit before the point: 0 to just below 2. The product is rounded down to a whole
-//! word; what the rounding takes away is gone before it could be seen, so a value that is to keep
-//! a fraction brings it along as its lower bits.
+//! word; the bits that rounding drops are lost, so to keep a fraction, pass it as the lower bits
+//! of the value.
 
 use crate::hdl::prelude::*;
 
@@ -34,30 +34,30 @@ impl Scaler {
 }
 
 signals! { for Scaler as c;
-    /// Ports in. What is given with `start` is taken in that tick and need not be held.
+    /// Input ports. Values given with `start` are taken in that tick and need not be held.
     pub struct In {
-        /// Begins, unless one is under way.
+        /// Starts, unless one is running.
         pub start: Bit,
-        /// Gives up what is under way; a start that comes with it is not taken.
+        /// Aborts; a start in the same tick is ignored.
         pub clear: Bit,
-        /// What is scaled; below 2^(Q − 1).
+        /// Value to scale; below 2^(Q − 1).
         pub value: U(c.value),
-        /// By how much, in units of 2^−(K − 1).
+        /// Gain, in units of 2^−(K − 1).
         pub gain: U(c.gain),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// A product is under way.
+        /// A product is being computed.
         busy: Bit = 0,
-        /// The bit of the gain it is at.
+        /// Index of the current bit of the gain.
         bit_index: U(6) = 0,
-        /// What is scaled.
+        /// Value to scale.
         factor: U(c.value) = 0,
-        /// Bits of the gain that are yet to come.
+        /// Remaining bits of the gain.
         bits: U(c.gain) as Hex = 0,
-        /// The product so far, by the weight of the bit to come; the result.
+        /// Partial product, in units of the next bit's weight; then the result.
         pub scaled: U(c.value) = 0,
-        /// The result stands in this tick, until the next start.
+        /// The result is valid from this tick on, until the next start.
         pub done: Bit = 0,
     }
     /// Nets.
@@ -68,7 +68,7 @@ signals! { for Scaler as c;
         last: Bit,
         /// Another bit comes after it.
         more: Bit,
-        /// The product with what the bit adds.
+        /// Product plus the term of this bit.
         total: U(c.value),
     }
 }
@@ -83,7 +83,7 @@ impl Circuit for Scaler {
         let last = q.bit_index.equals(self.gain as u64 - 1);
         let more = q.busy & !last & !i.clear;
         let total = q.scaled + q.bits.bit(0).mux(q.factor, 0);
-        // After a bit behind the point the product is halved.
+        // After a fraction bit the product is halved.
         let product = last.mux(total, total.shift_right(1));
         let next = Reg {
             busy: take | more,

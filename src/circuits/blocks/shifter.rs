@@ -17,11 +17,11 @@ pub struct Shifter {
 }
 
 signals! { for Shifter as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// What is shifted.
+        /// Word to shift.
         pub word: I(c.width),
-        /// By how many bits.
+        /// Shift distance in bits.
         pub by: U(6),
     }
     /// Nets.

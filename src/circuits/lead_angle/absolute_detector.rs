@@ -15,7 +15,7 @@
 use super::{GrayReceiver, Unwrapper, gray_receiver, unwrapper};
 use crate::hdl::prelude::*;
 
-/// Absolute detector of a turn, with a position that goes on.
+/// Absolute detector of a turn, with a position that continues over the turns.
 ///
 /// A word at the pins from tick n on, with its strobe, is in `position` from n + 4 on, with `sample`
 /// in that tick.
@@ -28,7 +28,7 @@ pub struct AbsoluteDetector {
 }
 
 signals! { for AbsoluteDetector as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The encoder's sampling clock, asynchronous; a new word comes with each rise. High and low
         /// for a tick at least, four ticks from rise to rise.
@@ -42,18 +42,18 @@ signals! { for AbsoluteDetector as c;
     }
     /// The circuits inside.
     pub struct Parts {
-        /// Where the encoder is in its turn.
+        /// Place of the encoder in its turn.
         pub receiver: Part<GrayReceiver>(GrayReceiver { code: c.code }),
-        /// Where it is in all.
+        /// Position, continued over the turns.
         pub unwrapper: Part<Unwrapper>(Unwrapper { place: c.code, position: c.position }),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// A sample is new in this tick: CK.
         pub sample: Bit,
         /// Dx: place in the turn, and the turns since; wraps.
         pub position: I(c.position) as Analog,
-        /// The encoder was too fast, or a word was none of the turn, since `clear`.
+        /// The encoder was too fast, or a word was outside the turn, since `clear`.
         pub lost: Bit,
     }
 }

@@ -1,4 +1,4 @@
-//! The grid of lead times, from the text's table: what a program works with.
+//! Grid of lead times, from the text's table, for programs.
 //!
 //! ```text
 //! N   codes                 at a CK of 0.1 ms
@@ -71,7 +71,8 @@ pub fn code(stages: u64, time: u64) -> Option<Code> {
     grid(stages).into_iter().find(|code| code.time == time)
 }
 
-/// What the ratio logic makes of any time in CKs: its code, or the nearest of the range that it is in.
+/// Returns the code of a time in CKs as the ratio logic rounds it: its own, or the nearest of the
+/// range that it is in.
 #[must_use]
 pub fn rounded(stages: u64, time: u64) -> Code {
     let below = grid(stages)
@@ -88,8 +89,8 @@ pub fn rounded(stages: u64, time: u64) -> Code {
     }
 }
 
-/// The nearest code below and the nearest above a time in CKs; 0 where there is none below, and
-/// nothing where there is none above.
+/// Returns the nearest times on the grid below and above a time in CKs; 0 if there is none below,
+/// `None` if there is none above.
 #[must_use]
 pub fn neighbours(stages: u64, time: f64) -> (u64, Option<u64>) {
     let grid = grid(stages);

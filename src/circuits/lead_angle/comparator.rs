@@ -8,14 +8,15 @@
 //!                               └────────────┘
 //! ```
 //!
-//! It looks, from the first `arm` on, where `evaluate` is high and what it is given is `valid`. A
-//! *crossing* is the arrival at the target, or the step over it, from either side; it counts once.
+//! From the first `arm` on, the position is evaluated where `evaluate` and `valid` are high. A
+//! *crossing* is the arrival at the target, or a step over it, from either side; it counts once.
 //! The first after `arm` is `fire`, and holds the control signal until the next `arm`.
 //!
 //! Departures: the text compares for equality, which hits only one target in v where the position
-//! moves on by v > 1 counts per CK. That is the variant [`Comparing::Equal`]. A crossing is told
-//! from the jump at the far side of the ring, where the difference changes its sign too: for
-//! that, moves have to be below a quarter of the range per CK. `arm`, the latch and `halt`, which
+//! moves on by v > 1 counts per CK. That is the variant [`Comparing::Equal`]. At the far side of
+//! the ring the difference changes its sign too; to tell a crossing from that jump, moves must be
+//! below a quarter of the range per CK. `arm`, the latch and `halt`, which gives the control
+//! signal without a crossing, are additions.
 //! gives the control signal without a crossing, are additions.
 
 use crate::hdl::prelude::*;
@@ -49,11 +50,11 @@ const AT: u64 = 2;
 const ABOVE: u64 = 3;
 
 signals! { for Comparator as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Position and target are new in this tick.
         pub evaluate: Bit,
-        /// They can be trusted.
+        /// Position and target are valid.
         pub valid: Bit,
         /// The position, with its lead.
         pub position: I(c.position),
@@ -61,33 +62,33 @@ signals! { for Comparator as c;
         pub target: I(c.position),
         /// Takes the control signal back and forgets the side; goes before all else.
         pub arm: Bit,
-        /// Gives the control signal at once.
+        /// Gives the control signal immediately.
         pub halt: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// Where the position was when it was last looked at, since `arm`.
+        /// Side of the target at the last evaluation since `arm`.
         side: U(2) as States(SIDES) = 0,
-        /// It looks at all: from the first `arm` on.
+        /// Evaluation is enabled: from the first `arm` on.
         armed: Bit = 0,
         /// The control signal, from the first crossing, or a halt, to the next `arm`.
         pub control: Bit = 0,
-        /// It came from below.
+        /// The crossing that fired came from below.
         pub upward: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// Position minus target, the short way round.
+        /// Position minus target, the short way round the ring.
         pub difference: I(c.position) as Analog,
-        /// The position is looked at in this tick.
+        /// The position is evaluated in this tick.
         look: Bit,
         /// The position is the target.
         equal: Bit,
         /// The position is on this half of the ring.
         near: Bit,
-        /// It comes from below.
+        /// The position reaches or passes the target from below.
         upwards: Bit,
-        /// It comes from above.
+        /// The position reaches or passes the target from above.
         downwards: Bit,
         /// The target is reached.
         pub crossing: Bit,

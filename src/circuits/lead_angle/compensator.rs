@@ -12,12 +12,12 @@
 //!                                     └─────────────┘
 //! ```
 //!
-//! Where the position comes from is a choice: an incremental encoder, or a detector of places in a turn
-//! or a pitch whose clock is CK. So is the lead: of the time Δt with the history as a shift register or
-//! as a RAM, in any of the equal [forms](LeadForm), or of the speed as in Fig. 7, by a parameter or a
-//! memory. `brake` is the control signal; it holds from the crossing through the rest up to the next
-//! step. With `passing` the body goes on, and `operate` is the control signal in place of `brake`: of
-//! an operation that is complete with its `effect`.
+//! The position comes from an incremental encoder, or from a detector of places in a turn or a
+//! pitch whose clock is CK. The lead comes from the time Δt, with the history as a shift register
+//! or as a RAM, in any of the equal [forms](LeadForm), or from the speed as in Fig. 7, by a
+//! parameter or a memory. `brake` is the control signal; it holds from the crossing through the
+//! rest up to the next step. With `passing` the body does not stop, and `operate` is the control
+//! signal in place of `brake`: for an operation that is complete with its `effect`.
 
 use super::detector::{Detected, DetectorPart, DetectorSource};
 use super::grid::{self, Grid, GridPart};
@@ -33,14 +33,14 @@ use crate::hdl::prelude::*;
 
 /// Compensator.
 ///
-/// From the tick of CK, in which a position stands, to `fire` it is one tick, to `brake` two.
+/// `fire` is high one tick after the tick of CK in which a position is present, `brake` two.
 #[derive(Debug, Clone)]
 pub struct Compensator {
     /// Its widths.
     pub widths: Widths,
-    /// Where the lead comes from.
+    /// Source of the lead.
     pub lead_from: LeadFrom,
-    /// What else is chosen.
+    /// Variants of the other circuits.
     pub variant: Variant,
     /// 25: the times of its steps at power-on, in CKs.
     pub rom: Image,
@@ -94,7 +94,7 @@ impl Compensator {
 }
 
 signals! { for Compensator as c;
-    /// Ports in: encoder, control computer, settings.
+    /// Input ports: encoder, control computer, settings.
     pub struct In {
         /// Incremental encoder, channel A.
         pub a: Bit,
@@ -113,14 +113,14 @@ signals! { for Compensator as c;
         /// Counts of an absolute encoder's turn, of a resolver's pitch, or of a phase-shift
         /// transducer's, which are ticks of its carrier; 0 for all words.
         pub turn: U(c.widths.code),
-        /// Between two steps: the position becomes 0, or the next place in turn or pitch; the
-        /// history begins anew, the flags go.
+        /// Between two steps: sets the position to 0, or to the next place in turn or pitch,
+        /// restarts the history and clears the flags.
         pub clear: Bit,
         /// Steps run one after the other; when it goes low the running one is the last.
         pub run: Bit,
-        /// Ends the move of this step at once; nothing is learned from it.
+        /// Ends the move of this step immediately; nothing is learned from it.
         pub halt: Bit,
-        /// The body goes on: the control signal begins an operation in passing.
+        /// The body does not stop: the control signal starts an operation in passing.
         pub passing: Bit,
         /// The operation takes effect; synchronised. Without `passing` it does nothing.
         pub effect: Bit,
@@ -163,13 +163,13 @@ signals! { for Compensator as c;
         pub ck_counter: Part<EnableCounter>(EnableCounter { width: c.widths.ck_period }),
         /// 10.
         pub detector: DetectorPart(&DetectorSource::of(c.variant.detector, &c.widths)),
-        /// What makes the lead.
+        /// Lead, by time or by speed.
         pub lead_source: LeadPart(&c.lead_source()),
         /// 18.
         pub target_setter: Part<TargetSetter>(TargetSetter {
             step: c.widths.step, position: c.widths.position, speed: c.widths.speed,
         }),
-        /// Whether a time that is written is on the grid.
+        /// Check that a written time is on the grid.
         pub write_check: GridPart(&Grid::of(c.form().division(), c.widths.stages)),
         /// 21.
         pub time_data: Part<TimeData>(c.time_data()),
@@ -181,7 +181,7 @@ signals! { for Compensator as c;
         pub comparator: Part<Comparator>(Comparator {
             position: c.widths.position, comparing: c.variant.comparing,
         }),
-        /// Where an operation took effect.
+        /// Position at which an operation took effect.
         pub probe: Part<TouchProbe>(TouchProbe { position: c.widths.position }),
         /// 26.
         pub completion: Part<CompletionDetector>(CompletionDetector {
@@ -197,13 +197,14 @@ signals! { for Compensator as c;
             step: c.widths.step, position: c.widths.position, rest: c.widths.cks,
         }),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// CK: a sample is taken.
         pub ck: Bit,
         /// Dx: the present sample.
         pub position: I(c.widths.position) as Analog,
-        /// What is compared with the target: Dx(+Δt) where all of the lead is put on the position.
+        /// Position to compare with the target: Dx(+Δt) where all of the lead is added to the
+        /// position.
         pub predicted: I(c.widths.position) as Analog,
         /// Sx: the target of this step.
         pub target: I(c.widths.position) as Analog,
@@ -223,15 +224,15 @@ signals! { for Compensator as c;
         pub fire: Bit,
         /// The control signal, where it stops the body.
         pub brake: Bit,
-        /// The control signal, where the body goes on.
+        /// The control signal, where it starts an operation in passing.
         pub operate: Bit,
         /// The positioning is complete.
         pub complete: Bit,
-        /// It was complete because its time was over.
+        /// The positioning was completed by its time-out.
         pub timed_out: Bit,
-        /// d1: the way since the control signal.
+        /// d1: distance since the control signal.
         pub overrun: I(c.widths.position),
-        /// d2: the way past the target.
+        /// d2: distance past the target.
         pub error: I(c.widths.position),
         /// A time is learned in this tick.
         pub learned: Bit,
@@ -306,7 +307,7 @@ impl Circuit for Compensator {
                     lead_time: data,
                 });
                 let w = time_lead.w;
-                // The correction counts in CKs, whatever the data hold.
+                // The correction counts in CKs, whatever the format of the time data.
                 lead_time = w.code.first().copied().unwrap_or(data);
                 (w.present, w.lead, w.fresh, w.enough)
             }
@@ -375,7 +376,7 @@ impl Circuit for Compensator {
             target,
             lead_time,
             learn: i.learn,
-            // An operation without effect has no way to learn from.
+            // An operation without effect gives no distance to learn from.
             missed: sequence.missed | (i.passing & !probe.q.taken),
             seed: i.seed,
         });

@@ -1,5 +1,5 @@
-//! Completion detector 26: the positioning is complete when the body stands still, when what the
-//! control signal is for has taken effect, or when its time is over.
+//! Completion detector 26: the positioning is complete when the body stands still, when the
+//! operation that the control signal starts has taken effect, or when the time-out is over.
 //!
 //! ```text
 //!                          ┌─────────────────────┐
@@ -10,7 +10,7 @@
 //! ```
 //!
 //! Departure: the text leaves open how long a standstill has to last and which of the two
-//! conditions is used. Both are, and which of them it was is told.
+//! conditions is used. Both are, and `timed_out` tells which one it was.
 
 use crate::hdl::prelude::*;
 
@@ -24,7 +24,7 @@ pub struct CompletionDetector {
 }
 
 signals! { for CompletionDetector as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// A sample of the position is new in this tick.
         pub evaluate: Bit,
@@ -32,7 +32,7 @@ signals! { for CompletionDetector as c;
         pub position: I(c.position),
         /// The control signal has been given for the step that runs.
         pub active: Bit,
-        /// What it is for has taken effect.
+        /// The operation that the control signal starts has taken effect.
         pub effect: Bit,
         /// CKs without a change that are a standstill; 0 counts as 1.
         pub standstill: U(c.time),
@@ -49,12 +49,12 @@ signals! { for CompletionDetector as c;
         elapsed: U(c.time) as Analog,
         /// The positioning is complete; one tick.
         pub complete: Bit,
-        /// Its time was over before it stood still or took effect; until the next.
+        /// The time was over before standstill or effect; until the next positioning.
         pub timed_out: Bit,
     }
     /// Nets.
     pub struct Net {
-        /// The sample is the same as the one before.
+        /// The sample equals the one before.
         same: Bit,
         /// CKs without a change, this one included.
         next_still: U(c.time),
@@ -62,13 +62,13 @@ signals! { for CompletionDetector as c;
         next_elapsed: U(c.time),
         /// A positioning is being completed.
         running: Bit,
-        /// It stands still.
+        /// The body stands still.
         stands: Bit,
-        /// It stands still, or has taken effect.
+        /// The body stands still, or the operation has taken effect.
         done: Bit,
-        /// It is complete with this sample.
+        /// The positioning is complete with this sample.
         over: Bit,
-        /// The times go on.
+        /// The times are counted in this tick.
         counts: Bit,
     }
 }

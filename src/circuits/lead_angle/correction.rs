@@ -44,11 +44,11 @@ pub struct Correction {
     pub stages: usize,
     /// Width of a position.
     pub position: usize,
-    /// Which way the error counts.
+    /// Sign convention of the error.
     pub sign: Sign,
-    /// What is made of error and overrun.
+    /// Function of error and overrun.
     pub function: Function,
-    /// How the time data hold what is learned.
+    /// Format of the time data for the learned time.
     pub division: Division,
 }
 
@@ -100,7 +100,7 @@ impl Correction {
 }
 
 signals! { for Correction as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The control signal begins.
         pub fire: Bit,
@@ -110,9 +110,9 @@ signals! { for Correction as c;
         pub position: I(c.position),
         /// Sx, constant from `fire` to `corrected`.
         pub target: I(c.position),
-        /// Δt1, constant likewise.
+        /// Δt1, constant from `fire` to `corrected`.
         pub lead_time: U(c.arithmetic().time()),
-        /// Times are to be learned.
+        /// Enables learning.
         pub learn: Bit,
         /// The control signal was not given by the comparator.
         pub missed: Bit,
@@ -125,20 +125,20 @@ signals! { for Correction as c;
         pub stop_error: Part<StopError>(StopError { position: c.position, sign: c.sign }),
         /// 28.
         pub arithmetic: Part<CorrectionArithmetic>(c.arithmetic()),
-        /// Has it divided twice, to second order.
+        /// Second division, for the second order.
         pub refinement: [Part<Refinement>(c.refinement()); usize::from(c.second_order())],
-        /// Chooses what is divided by, of the exact relation.
+        /// Choice of the divisor, for the exact relation.
         pub exact_relation: [Part<ExactRelation>(c.exact_relation()); usize::from(c.exact())],
         /// The divider.
         pub mul_div: Part<MulDiv>(c.mul_div()),
         /// Puts the result on the grid.
         pub grid: GridPart(&Grid::of(c.division, c.stages)),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
-        /// d1: the way since the control signal.
+        /// d1: distance since the control signal.
         pub overrun: I(c.position),
-        /// d2: the way past the target.
+        /// d2: distance past the target.
         pub error: I(c.position),
         /// Δt2.
         pub learned_time: U(c.arithmetic().time()),

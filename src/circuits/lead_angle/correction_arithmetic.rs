@@ -46,11 +46,11 @@ impl CorrectionArithmetic {
 }
 
 signals! { for CorrectionArithmetic as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The positioning is complete.
         pub complete: Bit,
-        /// Times are to be learned.
+        /// Enables learning.
         pub learn: Bit,
         /// The control signal was not given by the comparator.
         pub missed: Bit,
@@ -100,13 +100,13 @@ signals! { for CorrectionArithmetic as c;
         divided: Bit,
         /// Δt1 + |Δtd|.
         sum: U(c.word()),
-        /// Δt1 + |Δtd| as a code can be.
+        /// Δt1 + |Δtd|, at most the largest code.
         longer: U(c.time()),
         /// |Δtd| takes all of Δt1.
         vanishes: Bit,
         /// Δt1 − |Δtd|.
         rest: U(c.word()),
-        /// The same as a code can be.
+        /// Δt1 − |Δtd|, at least 1.
         shorter: U(c.time()),
     }
 }

@@ -1,4 +1,4 @@
-//! What a compensator can have for its position detector 10.
+//! Position detectors 10 that a compensator can have.
 
 use super::compensator::In;
 use super::{
@@ -62,7 +62,7 @@ impl DetectorSource {
     }
 }
 
-/// What a detector gives.
+/// Outputs of a detector.
 pub(super) struct Detected {
     /// CK.
     pub(super) ck: Bit,

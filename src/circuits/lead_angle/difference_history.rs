@@ -7,9 +7,9 @@
 //!                          └────────────────────┘
 //! ```
 //!
-//! The text allows it (引算器15は記憶回路11と取り出し回路14との間に設けてもよい). Every stage then has a
-//! subtractor, and the tap takes a way out instead of a sample. What is taken, and when, is as in the
-//! [shift register](super::position_history).
+//! The text allows this (引算器15は記憶回路11と取り出し回路14との間に設けてもよい). Every stage then has a subtractor, and
+//! the tap selects a difference instead of a sample. Selection and timing are those of the [shift
+//! register](super::position_history).
 
 use super::codes::tap_width;
 use super::position_history::{
@@ -19,21 +19,21 @@ use crate::hdl::prelude::*;
 
 /// Position history whose tap takes a difference.
 ///
-/// A position that stands in the tick of CK is at the outputs in the tick after it.
+/// A position that is present in the tick of CK is at the outputs in the next tick.
 #[derive(Debug, Clone)]
 pub struct DifferenceHistory {
-    /// How many samples it keeps.
+    /// Number of samples kept.
     pub stages: usize,
     /// Width of a position.
     pub position: usize,
 }
 
 signals! { for DifferenceHistory as c;
-    /// What leads a sample to the outputs.
+    /// Sample and difference at the outputs.
     pub struct DifferencePair {
         /// Dx: the present sample.
         pub present: I(c.position) as Analog,
-        /// 15: Δx, the way since the sample a tap of CKs before it.
+        /// 15: Δx, the distance since the sample `tap` CKs before it.
         pub difference: I(c.position) as Analog,
         /// N of this pair.
         pub pair_ratio: U(4),
@@ -46,21 +46,21 @@ signals! { for DifferenceHistory as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// What is at the outputs.
+        /// Pair at the outputs.
         pub pair: DifferencePair(c),
         /// 11: stage k holds the sample k CKs before the present one.
         stages: Shift(c.stages, c.position),
     }
     /// Nets.
     pub struct Net {
-        /// What is taken.
+        /// Selection of the stage.
         taking: Taking(c) as Flat,
-        /// 15: the way since the sample of each stage.
+        /// 15: the distance since the sample of each stage.
         ways: [I(c.position); c.stages],
     }
 }
 
-/// The word that `index` names, by a tree of choices; where there is none it is of no use.
+/// Returns the word at `index`, by a tree of multiplexers; arbitrary if there is no such word.
 fn taken(words: &[I], index: U) -> I {
     if let [word] = words {
         return *word;

@@ -6,16 +6,15 @@
 //!               └──────────────┘
 //! ```
 //!
-//! The text allows both (N=1に固定する場合はこのような論理回路13は不要; 予め分けたデータを供給). What
-//! supplies the data then sees to it that a tap is one of the history: of one beyond it there is never
-//! enough.
+//! The text allows both (N=1に固定する場合はこのような論理回路13は不要; 予め分けたデータを供給). The supplier of the data must
+//! keep the taps within the history: beyond it, `enough` is never high.
 //!
-//! Departure: a tap of 0 is no lead, whatever N stands beside it.
+//! Departure: a tap of 0 is no lead, whatever N comes with it.
 
 use super::codes::{tap_width, time_width};
 use crate::hdl::prelude::*;
 
-/// Where N comes from.
+/// Source of N.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Division {
     /// The logic circuit 13, from Δt.
@@ -23,7 +22,7 @@ pub enum Division {
     Logic,
     /// The time data, which hold N above Δt/N.
     Beforehand,
-    /// Nowhere: it is 1, and the time data are the tap.
+    /// None: N is 1, and the time data are the tap.
     One,
 }
 
@@ -32,7 +31,7 @@ pub enum Division {
 pub struct DividedTime {
     /// Stages of history.
     pub stages: usize,
-    /// N is 1 and does not stand in the data.
+    /// True if N is 1 and is not part of the data.
     pub one: bool,
 }
 
@@ -47,7 +46,7 @@ impl DividedTime {
         self.tap() + if self.one { 0 } else { 4 }
     }
 
-    /// Width of the time that they stand for.
+    /// Width of the time that the data represent.
     #[must_use]
     pub fn time(&self) -> usize {
         match self.one {
@@ -58,7 +57,7 @@ impl DividedTime {
 }
 
 signals! { for DividedTime as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Δt in CKs where N is 1, or N above Δt/N.
         pub lead_time: U(c.word()) as Hex,

@@ -24,7 +24,7 @@ pub struct ExactRelation {
 }
 
 signals! { for ExactRelation as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// d1.
         pub overrun: I(c.position),
@@ -33,7 +33,7 @@ signals! { for ExactRelation as c;
     }
     /// Nets.
     pub struct Net {
-        /// d1 − d2: the way from the control signal to the target.
+        /// d1 − d2: the distance from the control signal to the target.
         distance: I(c.position + 1),
         /// The target was ahead, in the direction of the overrun.
         ahead: Bit,

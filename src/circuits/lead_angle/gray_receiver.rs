@@ -25,7 +25,7 @@ pub struct GrayReceiver {
     pub code: usize,
 }
 
-/// Of two bits, of four, and so on.
+/// Names of the parities of two bits, of four, and so on.
 const PARITIES: &[&str] = &["parity_2", "parity_4", "parity_8", "parity_16", "parity_32"];
 
 impl GrayReceiver {
@@ -36,7 +36,7 @@ impl GrayReceiver {
 }
 
 signals! { for GrayReceiver as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The encoder's sampling clock, asynchronous; a new word comes with each rise. High and low
         /// for a tick at least, four ticks from rise to rise.

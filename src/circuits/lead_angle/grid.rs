@@ -1,4 +1,4 @@
-//! What puts times on the grid of those that can be set, where they are learned or written.
+//! Grid of the times that can be set, to which learned and written times are limited.
 
 use super::{DividedTime, Division, RatioLogic, TimeLimit, codes, ratio_logic, time_limit};
 use crate::hdl::prelude::*;
@@ -20,7 +20,7 @@ choice! {
 pub struct OnGrid {
     /// The time in CKs, or the one that takes its place.
     pub code: U,
-    /// It was one that can be set.
+    /// High if the given time is on the grid.
     pub on_grid: Bit,
     /// N above Δt/N, where the time data are divided beforehand.
     pub divided: Option<U>,

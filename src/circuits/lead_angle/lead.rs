@@ -7,11 +7,11 @@
 //!                 └──────┘
 //! ```
 //!
-//! Words wrap, so the difference is right as long as the way of a tap is below half the range of a
-//! position, and so is the prediction, wherever on the ring the lead ends.
+//! Words wrap, so the difference is right as long as the distance of a tap is below half the range
+//! of a position, and so is the prediction, wherever on the ring the lead ends.
 //!
-//! Where N is fixed at 1 there is no multiplier (この場合は論理回路13と乗算器16は不要): the lead is the
-//! difference, or nothing.
+//! With N fixed at 1 there is no multiplier (この場合は論理回路13と乗算器16は不要): the lead is the difference, or
+//! nothing.
 
 use super::LeadProducts;
 use crate::hdl::prelude::*;
@@ -26,7 +26,7 @@ pub struct Lead {
 }
 
 signals! { for (Lead, LeadProducts) as c;
-    /// Ports in; also those of the [products](super::lead_products).
+    /// Input ports; also those of the [products](super::lead_products).
     pub struct In {
         /// Dx: the present sample.
         pub present: I(c.position),
@@ -42,9 +42,9 @@ signals! { for Lead as c;
     pub struct Net {
         /// N with a sign.
         factor: I(5),
-        /// 15: Δx, the way of the last Δt/N.
+        /// 15: Δx, the distance travelled in the last Δt/N.
         pub difference: I(c.position) as Analog,
-        /// 16: N·Δx, the way that Δt will take at this speed.
+        /// 16: N·Δx, the distance to be travelled in Δt at this speed.
         pub lead: I(c.position) as Analog,
     }
 }
@@ -92,7 +92,7 @@ impl Specified for Lead {
             )
     }
 
-    /// Of a ratio that is fixed there is one bit.
+    /// A fixed ratio has one bit.
     fn applies(&self, i: &In<Value>) -> bool {
         !self.one || i.ratio <= 1
     }

@@ -8,9 +8,9 @@
 //!                 └───────────────┘
 //! ```
 //!
-//! The text's way round 15 and 16, with a product of each sample; where N is fixed at 1 it is
-//! 2·Dx − Dx(−Δt), without a multiplier. Adder 17 is in it: what comes out is Dx(+Δt), on which nothing
-//! is put any more.
+//! The text's alternative to 15 and 16, with a product of each sample; where N is fixed at 1 it is
+//! 2·Dx − Dx(−Δt), without a multiplier. Adder 17 is included: the output is Dx(+Δt), to which
+//! nothing more is added.
 
 pub use super::lead::In;
 use crate::hdl::prelude::*;
@@ -81,7 +81,7 @@ impl Specified for LeadProducts {
         )
     }
 
-    /// Of a ratio that is fixed there is one bit.
+    /// A fixed ratio has one bit.
     fn applies(&self, i: &In<Value>) -> bool {
         !self.one || i.ratio <= 1
     }

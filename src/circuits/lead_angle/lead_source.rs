@@ -1,4 +1,4 @@
-//! What a compensator can take its lead from.
+//! Sources of a compensator's lead.
 
 use super::{Division, Form, LeadTable, Memory, SpeedLead, TableLead, TimeLead, grid};
 use crate::hdl::prelude::*;
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LeadForm {
-    /// Fig. 1: N by the logic circuit 13, subtractor 15 behind the take-out 14, multiplier 16.
+    /// Fig. 1: N by the logic circuit 13, subtractor 15 after the take-out 14, multiplier 16.
     #[default]
     Embodiment,
     /// Time data that hold N and Δt/N, without 13.
@@ -34,7 +34,7 @@ impl LeadForm {
         LeadForm::EarlyDifference,
     ];
 
-    /// Where its N comes from.
+    /// Returns the source of its N.
     #[must_use]
     pub fn division(self) -> Division {
         match self {
@@ -44,7 +44,7 @@ impl LeadForm {
         }
     }
 
-    /// How its prediction is worked out.
+    /// Returns the method of its prediction.
     #[must_use]
     pub fn form(self) -> Form {
         match self {
@@ -68,10 +68,10 @@ impl LeadForm {
     }
 }
 
-/// Where a compensator's lead comes from.
+/// Source of a compensator's lead.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum LeadFrom {
-    /// The time Δt, with what keeps the history, in one of the equal forms.
+    /// The time Δt, with the memory of the history, in one of the equal forms.
     Time(Memory, LeadForm),
     /// The speed times a parameter, as in Fig. 7.
     Speed,
@@ -80,7 +80,7 @@ pub enum LeadFrom {
 }
 
 choice! {
-    /// What makes the lead.
+    /// Circuit of the lead.
     pub enum LeadSource as LeadPart {
         /// The lead of a time.
         Time(TimeLead),

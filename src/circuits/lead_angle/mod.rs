@@ -14,9 +14,9 @@
 //!                            └──────────────┘     └───────────────┘          └───────────────┘
 //! ```
 //!
-//! A body that is to stop at a target has to be braked before it is there. The way that it will
-//! still go is predicted from the way that it went in the last Δt/N, and Δt is learned from how it
-//! stopped. `rtl_notes/lead_angle/README.md` is the note of this circuit.
+//! A body that is to stop at a target must be braked before it arrives. Its remaining distance is
+//! predicted from the distance travelled in the last Δt/N, and Δt is learned from how it stopped.
+//! `rtl_notes/lead_angle/README.md` is the note of this circuit.
 
 pub mod absolute_detector;
 pub mod codes;

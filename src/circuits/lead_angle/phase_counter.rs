@@ -1,5 +1,5 @@
-//! Phase counter: the carrier of a phase-shift transducer, and what its secondary says of the place
-//! in a pitch. Part of position detector 10 of JPH0646367B2.
+//! Phase counter: the carrier of a phase-shift transducer, and the place in a pitch by its
+//! secondary. Part of position detector 10 of JPH0646367B2.
 //!
 //! ```text
 //!             ┌───────────────┐
@@ -18,10 +18,10 @@
 //! The secondary goes through two flip-flops, and the phase that a crossing is given is the one of two
 //! ticks ago. A crossing at 0 phase is of the period that begins with it.
 //!
-//! Departures: a moving body shifts the secondary's frequency, so that over the end of a pitch a period
-//! of the carrier has none or two crossings, however slow the body is. What is watched therefore is
-//! the secondary's own period: a crossing within 3/4 of the carrier's since the one before, and none
-//! within 5/4, are faults, of which no sample is taken for a place.
+//! Departures: a moving body shifts the secondary's frequency, so that around the end of a pitch a
+//! period of the carrier has none or two crossings, however slow the body is. Therefore the
+//! secondary's own period is monitored: a crossing within 3/4 of the carrier's period since the
+//! one before, and none within 5/4, are faults, and such a sample is not taken for a place.
 
 use crate::hdl::prelude::*;
 
@@ -37,7 +37,7 @@ pub struct PhaseCounter {
 const SEEN: u64 = 2;
 
 signals! { for PhaseCounter as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The secondary is above zero: a comparator with hysteresis, asynchronous.
         pub secondary: Bit,
@@ -53,9 +53,9 @@ signals! { for PhaseCounter as c;
         sync_secondary: U(3) as Hex = 7,
         /// The place in the pitch: the phase of the last crossing.
         pub place: U(c.phase) as Analog = 0,
-        /// Ticks since it, to the end of its time.
+        /// Ticks since the last crossing; stops where it is overdue.
         elapsed: U(c.phase + 1) as Analog = 0,
-        /// There was one.
+        /// There was a crossing since power-on.
         crossed: Bit,
         /// A crossing since the last 0 phase was too soon, or there was none for too long.
         pub fault: Bit,
@@ -68,15 +68,15 @@ signals! { for PhaseCounter as c;
         quarter: U(c.phase + 1),
         /// `phase + 1`: ticks of the period that are over after this one.
         next_phase: U(c.phase + 1),
-        /// The phase that the carrier had when what is seen was at the pin.
+        /// The phase of the carrier when the observed level was at the pin.
         seen_phase: U(c.phase),
         /// The carrier is in the first half of its period: a square wave in phase with its sine.
         pub square_wave: Bit,
         /// The secondary crosses zero upwards.
         crossing: Bit,
-        /// It was to cross later.
+        /// The crossing is too early.
         early: Bit,
-        /// It should have crossed before.
+        /// The crossing is overdue.
         late: Bit,
         /// The period ends.
         zero: Bit,
@@ -130,7 +130,7 @@ impl Circuit for PhaseCounter {
 }
 
 impl Specified for PhaseCounter {
-    /// A modulus of 1 to 3 is none.
+    /// Excludes moduli of 1 to 3, which are not allowed.
     fn applies(&self, i: &In<Value>) -> bool {
         i.modulus == 0 || i.modulus >= 4
     }
@@ -189,7 +189,7 @@ impl Specified for PhaseCounter {
                         (false, true) => q.elapsed,
                         (false, false) => q.elapsed + 1,
                     };
-                    // What is seen was at the pin two ticks ago.
+                    // The observed level was at the pin two ticks ago.
                     let ends = q.phase == 2;
                     let right = next.q.elapsed == expected
                         && next.q.fault == (wrong || (q.fault && !ends))

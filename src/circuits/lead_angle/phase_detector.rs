@@ -12,13 +12,13 @@
 //!             └──────────────────────────────────────────┘
 //! ```
 //!
-//! It is the detector that the text prefers (位相シフト方式). `sample` is CK of the memory 11: the
+//! This is the detector that the text prefers (位相シフト方式). `sample` is CK of the memory 11: the
 //! sampling clock of the detector, a pulse for each period of the reference signal.
 
 use super::{PhaseCounter, Unwrapper, phase_counter, unwrapper};
 use crate::hdl::prelude::*;
 
-/// Phase-shift detector, with a position that goes on.
+/// Phase-shift detector, with a position that continues over the pitches.
 ///
 /// A place is as old as its crossing, up to a period of the secondary; from 0 phase to `position` it
 /// takes three ticks.
@@ -31,7 +31,7 @@ pub struct PhaseDetector {
 }
 
 signals! { for PhaseDetector as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The secondary is above zero: a comparator with hysteresis, asynchronous.
         pub secondary: Bit,
@@ -42,12 +42,12 @@ signals! { for PhaseDetector as c;
     }
     /// The circuits inside.
     pub struct Parts {
-        /// Carrier, and where the body is in a pitch.
+        /// Carrier, and place of the body in a pitch.
         pub counter: Part<PhaseCounter>(PhaseCounter { phase: c.phase }),
-        /// Where it is in all.
+        /// Position, continued over the pitches.
         pub unwrapper: Part<Unwrapper>(Unwrapper { place: c.phase, position: c.position }),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// Phase of the carrier, for the D/A converters of the primaries.
         pub phase: U(c.phase) as Analog,

@@ -15,16 +15,16 @@
 use crate::hdl::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// What the lead is put on.
+/// Value that the lead is added to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Placement {
     /// Added to the position: adder 17.
     #[default]
     Position,
-    /// Taken from the target: subtractor 20.
+    /// Subtracted from the target: subtractor 20.
     Target,
-    /// Half of it, rounded down, added to the position, and the rest taken from the target.
+    /// Half of it, rounded down, added to the position, and the rest subtracted from the target.
     Halves,
 }
 
@@ -33,12 +33,12 @@ pub enum Placement {
 pub struct LeadPlacement {
     /// Width of a position.
     pub position: usize,
-    /// What the lead is put on.
+    /// Value that the lead is added to.
     pub placement: Placement,
 }
 
 signals! { for LeadPlacement as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Dx.
         pub position: I(c.position),
@@ -51,9 +51,9 @@ signals! { for LeadPlacement as c;
     pub struct Net {
         /// The part of the lead that is added to the position.
         advance: I(c.position),
-        /// Dx(+Δt), or as much of it as the placement wants.
+        /// Dx, plus its share of the lead.
         pub compared_position: I(c.position) as Analog,
-        /// Sx′, likewise.
+        /// Sx, less its share of the lead: Sx′.
         pub compared_target: I(c.position) as Analog,
     }
 }

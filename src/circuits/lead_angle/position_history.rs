@@ -7,13 +7,13 @@
 //!                          └──────────────────┘
 //! ```
 //!
-//! At each CK a sample goes in at stage 0 and all others move on by a stage: stage k holds the
+//! At each CK a sample enters stage 0 and all others move on by a stage: stage k holds the
 //! sample that is k CKs older than the present one. With the sample goes a pair to the outputs, the
 //! sample itself and the one a tap of CKs before it, together with the ratio that belongs to it.
 //!
-//! Departures: how many samples there are since `restart` is counted, since a history of zeros
-//! predicts twice the position. Sample and earlier sample change at the same edge, so that they
-//! always belong together, whatever the rate of CK.
+//! Departures: the samples since `restart` are counted, since a history of zeros predicts twice
+//! the position. Sample and earlier sample change at the same edge, so that they always belong
+//! together, whatever the rate of CK.
 
 use super::codes::tap_width;
 use super::{DifferenceHistory, RamHistory};
@@ -22,31 +22,31 @@ use crate::hdl::prelude::*;
 
 /// Position history as a shift register.
 ///
-/// A position that stands in the tick of CK is at the outputs in the tick after it.
+/// A position that is present in the tick of CK is at the outputs in the next tick.
 #[derive(Debug, Clone)]
 pub struct PositionHistory {
-    /// How many samples it keeps.
+    /// Number of samples kept.
     pub stages: usize,
     /// Width of a position.
     pub position: usize,
 }
 
 signals! { for (PositionHistory, RamHistory, DifferenceHistory) as c;
-    /// Ports in; also those of the [RAM form](super::ram_history) and of the
+    /// Input ports; also those of the [RAM form](super::ram_history) and of the
     /// [differences](super::difference_history).
     pub struct In {
         /// CK: a sample is taken.
         pub ck: Bit,
-        /// What was sampled so far counts no more.
+        /// Discards the samples taken so far.
         pub restart: Bit,
         /// The position.
         pub position: I(c.position),
-        /// How many CKs old the other sample of the pair is, 1 to K; 0 for none.
+        /// Age in CKs of the other sample of the pair, 1 to K; 0 for none.
         pub tap: U(tap_width(c.stages)),
         /// N, which goes with the pair.
         pub ratio: U(4),
     }
-    /// What leads a sample to the outputs; also of the [RAM form](super::ram_history).
+    /// Pair of samples at the outputs; also of the [RAM form](super::ram_history).
     pub struct Pair {
         /// Dx: the present sample.
         pub present: I(c.position) as Analog,
@@ -75,7 +75,7 @@ signals! { for (PositionHistory, RamHistory, DifferenceHistory) as c;
 signals! { for PositionHistory as c;
     /// Flip-flops.
     pub struct Reg {
-        /// What is at the outputs.
+        /// Pair at the outputs.
         pub pair: Pair(c),
         /// 11: stage k holds the sample k CKs before the present one.
         stages: Shift(c.stages, c.position),
@@ -92,7 +92,7 @@ pub(super) fn nets(stages: usize, pair: &Pair, i: &In) -> Net {
     }
 }
 
-/// The outputs of either form after the edge; `old` is what its memory gives.
+/// Returns the outputs of either form after the edge; `old` comes from its memory.
 pub(super) fn pair_after(stages: usize, pair: &Pair, w: &Net, i: &In, old: I) -> Pair<Edge> {
     let full = pair.samples.equals(stages as u64);
     let counted = (i.ck & !full).mux(pair.samples + 1, pair.samples);
@@ -106,7 +106,7 @@ pub(super) fn pair_after(stages: usize, pair: &Pair, w: &Net, i: &In, old: I) ->
     }
 }
 
-/// What is wrong with so many stages.
+/// Returns why this number of stages is not allowed.
 pub(super) fn objection(stages: usize) -> Option<String> {
     (stages == 0).then(|| "a history of no samples".into())
 }
@@ -123,12 +123,12 @@ pub(super) fn moved_on(ck: bool, stages: &[u64], position: u64, after: &[u64]) -
     })
 }
 
-/// The ratio is only handed on: in a proof it may depend on the position.
+/// The ratio is only passed on: in a proof it may depend on the position.
 pub(super) fn ratio_follows(i: &In<Value>) -> bool {
     i.ratio == i.position.rem_euclid(2) as u64 * 15
 }
 
-/// A position as it stands in a memory.
+/// Returns a position as the word that a memory holds.
 pub(super) fn stored(position: i64, width: usize) -> u64 {
     position as u64 & u64::MAX >> (64 - width)
 }

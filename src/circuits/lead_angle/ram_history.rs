@@ -1,4 +1,4 @@
-//! The same position history as a RAM, the other form that the text gives for the memory 11.
+//! Position history as a RAM, the other form of the memory 11 in the text.
 //!
 //! ```text
 //!                          ┌─────────────┐
@@ -7,8 +7,8 @@
 //!                          └─────────────┘
 //! ```
 //!
-//! Samples stay where they were written; what moves is the address. Ports and every tick at them
-//! are those of the [shift register](super::position_history).
+//! Samples stay where they were written; only the address moves. In every tick the ports behave as
+//! those of the [shift register](super::position_history).
 
 use super::codes::tap_width;
 use super::position_history::{In, Net, Pair, nets, objection, pair_after, ratio_follows, stored};
@@ -16,10 +16,10 @@ use crate::hdl::prelude::*;
 
 /// Position history in a RAM, which has a word for every tap that there can be.
 ///
-/// A position that stands in the tick of CK is at the outputs in the tick after it.
+/// A position that is present in the tick of CK is at the outputs in the next tick.
 #[derive(Debug, Clone)]
 pub struct RamHistory {
-    /// How many samples it reaches back.
+    /// Number of samples it reaches back.
     pub stages: usize,
     /// Width of a position.
     pub position: usize,
@@ -28,9 +28,9 @@ pub struct RamHistory {
 signals! { for RamHistory as c;
     /// Flip-flops and memory.
     pub struct Reg {
-        /// What is at the outputs.
+        /// Pair at the outputs.
         pub pair: Pair(c),
-        /// Where the next sample is written; the one k CKs before it is k addresses below.
+        /// Write address of the next sample; the sample k CKs before it is k addresses below.
         address: U(tap_width(c.stages)) as Hex,
         /// 11: the samples.
         samples: Ram(tap_width(c.stages), c.position),

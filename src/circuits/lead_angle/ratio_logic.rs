@@ -46,14 +46,14 @@ impl RatioLogic {
 }
 
 signals! { for RatioLogic as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Δt in CKs.
         pub lead_time: U(c.time()),
     }
     /// Nets.
     pub struct Net {
-        /// The time, with room for what is added.
+        /// The time, with room for the sums.
         wide: U(14),
         /// The time is beyond the codes of ratio 1.
         two: Bit,
@@ -63,7 +63,7 @@ signals! { for RatioLogic as c;
         ten: Bit,
         /// The time and half of its ratio.
         rounded: U(14),
-        /// The same, or half of it where the ratio is even.
+        /// `rounded`, or half of it where the ratio is even.
         halved: U(14),
         /// `halved` times 2^17/5.
         product: U(29),

@@ -8,12 +8,12 @@
 //!                                  └────────────┘
 //! ```
 //!
-//! Of a body that comes at a constant speed the error d2 is worth Δtd = Δt·d2/d1, with the Δt that
-//! would have been right. The first order takes Δt1 for it. Here that is the first division, and the
-//! second takes what came of it: Δtd = (Δt1 + Δt1·d2/d1)·d2/d1.
+//! For a body that arrives at a constant speed, the error d2 corresponds to Δtd = Δt·d2/d1, with
+//! the Δt that would have been right. The first order takes Δt1 for it. Here that is the first
+//! division, and the second uses its result: Δtd = (Δt1 + Δt1·d2/d1)·d2/d1.
 //!
 //! Departure: the text names a quadratic function and gives none. Where |d2| is not below |d1| the
-//! series that this begins does not converge, so the first division stands: the first order.
+//! series that this begins does not converge, so the first division is kept: the first order.
 
 use crate::hdl::prelude::*;
 
@@ -36,13 +36,13 @@ pub struct Refinement {
 }
 
 signals! { for Refinement as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// A correction begins, unless one is under way.
+        /// Starts a correction, unless one is running.
         pub start: Bit,
         /// |d2|; taken with `start`.
         pub multiplicand: U(c.position),
-        /// Δt1; stands from `start` to `done`.
+        /// Δt1; constant from `start` to `done`.
         pub multiplier: U(c.time),
         /// |d1|; taken with `start`.
         pub divisor: U(c.position),
@@ -55,13 +55,13 @@ signals! { for Refinement as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// Which division is under way.
+        /// State: the division that is running.
         state: U(2) as States(STATES) = 0,
         /// |d2| of the correction.
         error_amount: U(c.position) = 0,
         /// |d1| of the correction.
         overrun_amount: U(c.position) = 0,
-        /// |Δtd| stands at the divider; one tick.
+        /// |Δtd| is valid at the divider; one tick.
         pub done: Bit = 0,
     }
     /// Nets.
@@ -76,13 +76,13 @@ signals! { for Refinement as c;
         over: Bit,
         /// Δt1 and Δtd of the first order.
         first_order: U(c.time + 1),
-        /// The divider is to begin.
+        /// Starts the divider.
         pub divide: Bit,
         /// First factor: |d2|.
         pub first_factor: U(c.position),
-        /// Second factor: Δt1, or what the first order makes of it.
+        /// Second factor: Δt1, or `first_order`.
         pub second_factor: U(c.time + 1),
-        /// What is divided by: |d1|.
+        /// Divisor: |d1|.
         pub divide_by: U(c.position),
         /// Half of |d1|: the quotient is rounded to the nearest.
         pub addend: U(c.position),

@@ -19,7 +19,7 @@ use super::{TrackingConverter, Unwrapper, tracking_converter, unwrapper};
 use crate::circuits::blocks::{Scaler, scaler};
 use crate::hdl::prelude::*;
 
-/// Resolver detector, with a position that goes on.
+/// Resolver detector, with a position that continues over the pitches.
 ///
 /// From `strobe` to `position` it takes A + 2 ticks, A being the width of an angle.
 #[derive(Debug, Clone)]
@@ -38,7 +38,7 @@ impl ResolverDetector {
 }
 
 signals! { for ResolverDetector as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The words are new, A + 2 ticks after those before at least.
         pub strobe: Bit,
@@ -55,14 +55,14 @@ signals! { for ResolverDetector as c;
     pub struct Parts {
         /// The angle in a pitch.
         pub converter: Part<TrackingConverter>(c.converter.clone()),
-        /// The same in counts.
+        /// The angle in counts.
         pub scaler: Part<Scaler>(Scaler { gain: c.angle(), value: c.angle() + 2 }),
-        /// Where the body is in all.
+        /// Position, continued over the pitches.
         pub unwrapper: Part<Unwrapper>(Unwrapper { place: c.angle(), position: c.position }),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
-        /// What the angle goes in a conversion, in units of 2^−(A + 2·G) pitch.
+        /// Change of the angle per conversion, in units of 2^−(A + 2·G) pitch.
         pub speed: I(c.converter.tracking.phase()) as Analog,
         /// A sample is new in this tick: CK.
         pub sample: Bit,

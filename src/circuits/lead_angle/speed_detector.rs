@@ -1,4 +1,4 @@
-//! Speed detector 2 of Fig. 7: the way of a gate.
+//! Speed detector 2 of Fig. 7: the distance travelled in a gate.
 //!
 //! ```text
 //!                          ┌────────────────┐
@@ -7,13 +7,13 @@
 //!                          └────────────────┘
 //! ```
 //!
-//! The speed is the way of a gate of so many CKs, and stands until the next gate is over: on
-//! average it is a whole gate old.
+//! The speed is the distance travelled in a gate of `gate` CKs, and is held until the next gate is
+//! over: on average it is a whole gate old.
 
 use super::TableLead;
 use crate::hdl::prelude::*;
 
-/// Speed detector. A position that stands in the tick of CK is at `present` in the tick after it.
+/// Speed detector. A position that is present in the tick of CK is at `present` in the next tick.
 #[derive(Debug, Clone)]
 pub struct SpeedDetector {
     /// Width of a position.
@@ -23,11 +23,11 @@ pub struct SpeedDetector {
 }
 
 signals! { for (SpeedDetector, TableLead) as c;
-    /// Ports in; also those of the [lead from a memory](super::table_lead).
+    /// Input ports; also those of the [lead from a memory](super::table_lead).
     pub struct In {
         /// CK: a sample is taken.
         pub ck: Bit,
-        /// What was sampled so far counts no more.
+        /// Discards the samples taken so far.
         pub restart: Bit,
         /// The position.
         pub position: I(c.position),
@@ -60,7 +60,7 @@ signals! { for SpeedDetector as c;
         next_count: U(c.gate),
         /// The gate ends with this sample.
         pub over: Bit,
-        /// Way of the gate that ends: ν from the next tick on.
+        /// Distance travelled in the gate that ends: ν from the next tick on.
         pub way: I(c.position),
         /// A gate begins with this sample.
         begins: Bit,

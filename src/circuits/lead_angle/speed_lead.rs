@@ -12,7 +12,8 @@
 use super::{SpeedDetector, speed_detector};
 use crate::hdl::prelude::*;
 
-/// Conventional lead. A position that stands in the tick of CK is at `present` in the tick after it.
+/// Conventional lead. A position that is present in the tick of CK is at `present` in the next
+/// tick.
 #[derive(Debug, Clone)]
 pub struct SpeedLead {
     /// Width of a position.
@@ -22,11 +23,11 @@ pub struct SpeedLead {
 }
 
 signals! { for SpeedLead as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// CK: a sample is taken.
         pub ck: Bit,
-        /// What was sampled so far counts no more.
+        /// Discards the samples taken so far.
         pub restart: Bit,
         /// The position.
         pub position: I(c.position),

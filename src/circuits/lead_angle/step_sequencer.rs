@@ -11,15 +11,16 @@
 //!                            └────────────────┘
 //! ```
 //!
-//! A step: *load* its target and its time, *arm* the comparator until a sample says which way it is,
-//! *move* until the control signal, *brake* until the positioning is complete, *correct* the time,
-//! *rest*. Then the next step, from step 0 again after the last, as long as `run` is high.
+//! A step: *load* its target and its time, *arm* the comparator until a sample gives the
+//! direction, *move* until the control signal, *brake* until the positioning is complete,
+//! *correct* the time, *rest*. Then the next step, from step 0 again after the last, as long as
+//! `run` is high.
 //!
 //! With `passing` the control signal stops nothing: the motor is on from the first *move* until the
 //! last step is over, and *brake* waits for the operation that the signal is for. Where `passing`
 //! goes meanwhile, the signal stops the body.
 //!
-//! `halt` during *move* gives the control signal by hand; what comes of either is not learned from.
+//! `halt` during *move* gives the control signal by hand; in either case nothing is learned.
 
 use crate::hdl::prelude::*;
 
@@ -46,11 +47,11 @@ const CORRECT: u64 = 5;
 const REST: u64 = 6;
 
 signals! { for StepSequencer as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Steps run one after the other; when it goes low the running one is the last.
         pub run: Bit,
-        /// Ends the move of this step at once.
+        /// Ends the move of this step immediately.
         pub halt: Bit,
         /// The step after which step 0 comes.
         pub last_step: U(c.step),
@@ -68,14 +69,14 @@ signals! { for StepSequencer as c;
         pub corrected: Bit,
         /// CK.
         pub ck: Bit,
-        /// The body goes on: the motor stays on from step to step.
+        /// The body does not stop: the motor stays on from step to step.
         pub passing: Bit,
         /// CKs between two steps.
         pub rest: U(c.rest),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// What it does.
+        /// State of the sequence.
         state: U(3) as States(STATES) = 0,
         /// CKs of rest.
         count: U(c.rest) = 0,
@@ -83,24 +84,25 @@ signals! { for StepSequencer as c;
         pub step: U(c.step) = 0,
         /// The step's target and time are read; one tick.
         pub load: Bit = 0,
-        /// The comparator is set back, until a sample is there.
+        /// The comparator is reset, until a sample is ready.
         pub arm: Bit = 0,
         /// The motor is on.
         pub drive: Bit = 0,
-        /// It turns downwards.
+        /// The motor turns downwards.
         pub reverse: Bit = 0,
-        /// The control signal is asked for; one tick.
+        /// Requests the control signal; one tick.
         pub halting: Bit = 0,
-        /// The body is being stopped, or what the control signal is for awaited.
+        /// The body is being stopped, or the effect of the control signal is awaited.
         pub braking: Bit = 0,
-        /// The control signal was asked for in this step, or stops the body instead of an operation.
+        /// The control signal was requested in this step, or stops the body instead of an
+        /// operation.
         pub missed: Bit = 0,
         /// A step runs.
         pub busy: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// The way to the target, the short way round.
+        /// Distance to the target, the short way round the ring.
         way: I(c.position),
         /// The state is over with this tick, and the one after it comes.
         goes_on: Bit,
@@ -112,7 +114,7 @@ signals! { for StepSequencer as c;
         rested: Bit,
         /// The state of the next tick.
         after: U(3) as States(STATES),
-        /// It is another than idle.
+        /// The state of the next tick is not idle.
         works: Bit,
         /// The step of the next tick.
         next_step: U(c.step),

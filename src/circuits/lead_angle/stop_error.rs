@@ -7,8 +7,8 @@
 //!                       └────────────┘
 //! ```
 //!
-//! `overrun` (d1) is the way since the control signal, `error` (d2) the way past the target; both
-//! are positive upwards. They are meant when the positioning is complete.
+//! `overrun` (d1) is the distance since the control signal, `error` (d2) the distance past the
+//! target; both are positive upwards. They are used when the positioning is complete.
 //!
 //! Departure: the text's error is Sx − Dx. With it learning goes the wrong way: the relative error
 //! r of a time becomes r² where it should become (1 − r)². That is the variant [`Sign::Literal`].
@@ -16,7 +16,7 @@
 use crate::hdl::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Which way the error counts.
+/// Sign convention of the error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sign {
@@ -32,12 +32,12 @@ pub enum Sign {
 pub struct StopError {
     /// Width of a position.
     pub position: usize,
-    /// Which way the error counts.
+    /// Sign convention of the error.
     pub sign: Sign,
 }
 
 signals! { for StopError as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The control signal begins.
         pub fire: Bit,
@@ -48,14 +48,14 @@ signals! { for StopError as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// 30: where the body was when the control signal began.
+        /// 30: the position when the control signal began.
         trigger_position: I(c.position) as Analog,
     }
     /// Nets.
     pub struct Net {
-        /// 31: d1, the way since the control signal.
+        /// 31: d1, the distance since the control signal.
         pub overrun: I(c.position),
-        /// 27: d2, the way past the target.
+        /// 27: d2, the distance past the target.
         pub error: I(c.position),
     }
 }

@@ -8,9 +8,9 @@
 //!                          └────────────┘
 //! ```
 //!
-//! The upper bits of ν are the address, sign and all, so either direction has leads of its own. The
-//! lower ones go to the next word's lead in a straight line. The memory is addressed by the way that
-//! becomes ν at the same edge: θa stands in the tick in which ν does.
+//! The upper bits of ν are the address, sign included, so each direction has leads of its own. The
+//! lower bits interpolate linearly to the next word's lead. The memory is addressed by the
+//! distance that becomes ν at the same edge: θa is valid in the same tick as ν.
 //!
 //! Departures: the text has a lead for each speed; here they are 2^`fraction` counts apart. A speed
 //! beyond the memory has the lead of the last that it covers.
@@ -19,13 +19,13 @@ use super::SpeedDetector;
 pub use super::speed_detector::In;
 use crate::hdl::prelude::*;
 
-/// Leads by speed, as they stand in a memory: f(ν) at every 2^`fraction` counts.
+/// Leads by speed, as a memory holds them: f(ν) at every 2^`fraction` counts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LeadTable {
     /// Leads in counts, from a speed of 0 up; the upper half is of negative speeds, as two's
     /// complement has them.
     pub leads: Image,
-    /// By how much the next word's lead is greater.
+    /// Increase of the lead from each word to the next.
     pub increments: Image,
     /// Bits of a speed below the address.
     pub fraction: usize,
@@ -66,14 +66,15 @@ impl LeadTable {
     }
 }
 
-/// Lead from a memory. A position that stands in the tick of CK is at `present` in the tick after it.
+/// Lead from a memory. A position that is present in the tick of CK is at `present` in the next
+/// tick.
 #[derive(Debug, Clone)]
 pub struct TableLead {
     /// Width of a position.
     pub position: usize,
     /// Width of a gate in CKs.
     pub gate: usize,
-    /// What the memory holds.
+    /// Contents of the memory.
     pub table: LeadTable,
 }
 
@@ -83,7 +84,7 @@ impl TableLead {
         self.first(&self.table.leads)
     }
 
-    /// The same of the increments.
+    /// Returns the first increment.
     fn increment_at_rest(&self) -> i64 {
         self.first(&self.table.increments)
     }
@@ -99,9 +100,9 @@ signals! { for TableLead as c;
     pub struct Reg {
         /// The lead of the last word's speed at or below ν.
         base: I(c.position) as Analog = c.at_rest(),
-        /// What it grows by up to the next word's speed.
+        /// Increase of the lead up to the next word's speed.
         increment: I(c.position) = c.increment_at_rest(),
-        /// How far ν is on the way to it, in 1/2^`fraction`.
+        /// Fraction of the step to the next word's speed, in 1/2^`fraction`.
         part: U(c.table.fraction) = 0,
     }
     /// The circuit inside.
@@ -119,9 +120,9 @@ signals! { for TableLead as c;
         pub enough: Bit,
         /// ν: counts of the last gate.
         pub speed: I(c.position) as Analog,
-        /// The memory covers the way of the gate that ends.
+        /// The memory covers the distance of the gate that ends.
         covered: Bit,
-        /// That way, or the last that it covers.
+        /// The distance of the gate, or the last that the memory covers.
         held: I(c.table.bits()),
         /// Its bits.
         word: U(c.table.bits()),

@@ -8,12 +8,12 @@
 //!                                     └───────────────┘
 //! ```
 //!
-//! Departure: the speed stands with the target, since the drive needs one for each step too.
+//! Departure: the speed is stored with the target, since the drive needs one for each step too.
 
 use super::position_history::stored;
 use crate::hdl::prelude::*;
 
-/// Target setter 18; a step stands at the outputs in the tick after `load`.
+/// Target setter 18; a step is at the outputs in the tick after `load`.
 #[derive(Debug, Clone)]
 pub struct TargetSetter {
     /// Width of a step number.
@@ -25,7 +25,7 @@ pub struct TargetSetter {
 }
 
 signals! { for TargetSetter as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The control computer writes a step.
         pub write: Bit,
@@ -42,9 +42,9 @@ signals! { for TargetSetter as c;
     }
     /// Output registers and memories.
     pub struct Reg {
-        /// Sx: where this step ends.
+        /// Sx: the target of this step.
         pub target: I(c.position) as Analog,
-        /// The speed on the way there, for the drive.
+        /// Speed of the move to the target, for the drive.
         pub speed: U(c.speed),
         /// Targets by step.
         targets: Ram(c.step, c.position),

@@ -1,5 +1,5 @@
-//! Time data supply 21: memory 24 with a lead time for each step, ROM 25 as what it holds at first,
-//! buffer 29 for the time of the step that runs.
+//! Time data supply 21: memory 24 with a lead time for each step, ROM 25 with its initial
+//! contents, buffer 29 for the time of the step that runs.
 //!
 //! ```text
 //!                                     ┌───────────┐
@@ -11,13 +11,13 @@
 //!
 //! With `common` all steps share the time of step 0, as the text allows.
 //!
-//! Departures: a write of the control computer that is off the grid of the
-//! [ratio logic](super::ratio_logic), or in the tick in which a learned time is written, is refused
-//! and said so. Buffer 29 is the memory's output register.
+//! Departures: a write of the control computer that is off the grid of the [ratio
+//! logic](super::ratio_logic), or in the tick in which a learned time is written, is refused and
+//! flagged. Buffer 29 is the memory's output register.
 
 use crate::hdl::prelude::*;
 
-/// Time data supply 21; a time stands at the output in the tick after `load`.
+/// Time data supply 21; a time is at the output in the tick after `load`.
 #[derive(Debug, Clone)]
 pub struct TimeData {
     /// Width of a step number.
@@ -43,7 +43,7 @@ impl TimeData {
 }
 
 signals! { for TimeData as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The time of the step that begins comes to the output.
         pub load: Bit,
@@ -77,7 +77,7 @@ signals! { for TimeData as c;
     }
     /// Nets.
     pub struct Net {
-        /// Where the time of the step stands.
+        /// Address of the time of the step.
         address: U(c.step),
         /// A write of the control computer is refused.
         refuse: Bit,
@@ -165,7 +165,7 @@ impl Specified for TimeData {
             )
     }
 
-    /// Two values of what is only stored.
+    /// Two values of the data, which are only stored.
     fn applies(&self, i: &In<Value>) -> bool {
         let most = (1 << self.time) - 1;
         let two = |word: u64| word == 0 || word == most;

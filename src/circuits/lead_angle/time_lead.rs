@@ -8,10 +8,10 @@
 //!                          └───────────┘
 //! ```
 //!
-//! The history is a choice: the shift register, or the RAM that equals it in every tick. So are the
-//! forms that the text gives as equal: time data that need no logic circuit 13, the two products in
-//! place of 15, and 15 before 14. They take the same samples in the same ticks, and on the ring of
-//! positions their predictions are the same number.
+//! The history is a shift register, or the RAM that equals it in every tick. The forms that the
+//! text gives as equal can be chosen too: time data that need no logic circuit 13, the two
+//! products in place of 15, and 15 before 14. They take the same samples in the same ticks, and on
+//! the ring of positions their predictions are the same number.
 
 use super::{
     DifferenceHistory, DividedTime, Division, Lead, LeadProducts, PositionHistory, RamHistory,
@@ -29,10 +29,10 @@ pub enum Memory {
     Ram,
 }
 
-/// How the prediction is worked out.
+/// Method of the prediction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Form {
-    /// Subtractor 15 behind the take-out 14, then multiplier 16.
+    /// Subtractor 15 after the take-out 14, then multiplier 16.
     #[default]
     Difference,
     /// (N + 1)·Dx − N·Dx(−Δt/N), without 15.
@@ -54,7 +54,7 @@ choice! {
 }
 
 choice! {
-    /// Where ratio and tap come from.
+    /// Source of ratio and tap.
     pub enum Ratio as RatioPart {
         /// The logic circuit 13.
         Logic(RatioLogic),
@@ -64,7 +64,7 @@ choice! {
 }
 
 choice! {
-    /// What makes lead or prediction.
+    /// Circuit of lead or prediction.
     pub enum Arithmetic as ArithmeticPart {
         /// 15 and 16.
         Difference(Lead),
@@ -75,18 +75,19 @@ choice! {
 
 /// Lead of a time.
 ///
-/// A position that stands in the tick of CK is at the outputs, with its lead, in the tick after it.
+/// A position that is present in the tick of CK is at the outputs, with its lead, in the next
+/// tick.
 #[derive(Debug, Clone)]
 pub struct TimeLead {
     /// Stages of history.
     pub stages: usize,
     /// Width of a position.
     pub position: usize,
-    /// What the history is kept in.
+    /// Memory of the history.
     pub memory: Memory,
-    /// Where N comes from.
+    /// Source of N.
     pub division: Division,
-    /// How the prediction is worked out.
+    /// Method of the prediction.
     pub form: Form,
 }
 
@@ -151,11 +152,11 @@ impl TimeLead {
 }
 
 signals! { for TimeLead as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// CK: a sample is taken.
         pub ck: Bit,
-        /// What was sampled so far counts no more.
+        /// Discards the samples taken so far.
         pub restart: Bit,
         /// The position.
         pub position: I(c.position),
@@ -164,14 +165,14 @@ signals! { for TimeLead as c;
     }
     /// The circuits inside.
     pub struct Parts {
-        /// 13, or what stands in its place.
+        /// 13, or the circuit in its place.
         pub ratio_logic: RatioPart(&c.ratio()),
         /// 11 and 14.
         pub history: HistoryPart(&c.history()),
-        /// 15 and 16, or what stands in their place.
+        /// 15 and 16, or the circuit in their place.
         pub lead_arithmetic: ArithmeticPart(&c.arithmetic()),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// Dx: the present sample.
         pub present: I(c.position) as Analog,
@@ -179,7 +180,7 @@ signals! { for TimeLead as c;
         pub lead: I(c.position) as Analog,
         /// Sample and lead are new in this tick.
         pub fresh: Bit,
-        /// The history reaches back as far as the time wants.
+        /// The history reaches back as far as the time needs.
         pub enough: Bit,
         /// Δt in CKs, of data that hold N and Δt/N.
         pub code: [U(c.divided().time()); usize::from(c.division == Division::Beforehand)]
@@ -234,7 +235,7 @@ impl Circuit for TimeLead {
             tap,
             ratio,
         };
-        // What is subtracted from what, and the rest of the pair.
+        // Operands of the subtraction, and the rest of the pair.
         let (ends, present, ratio, fresh, enough) = match p.history {
             HistoryPart::ShiftRegister(part) => {
                 let pair = part.settle(ports).q.pair;

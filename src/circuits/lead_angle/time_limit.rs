@@ -1,5 +1,5 @@
-//! Limit of the times where N is fixed at 1: what stands in place of the ratio logic where times are
-//! learned and written.
+//! Limit of the times where N is fixed at 1: replaces the ratio logic where times are learned and
+//! written.
 //!
 //! ```text
 //!               ┌────────────┐
@@ -24,7 +24,7 @@ pub struct TimeLimit {
 }
 
 signals! { for TimeLimit as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Δt in CKs.
         pub lead_time: U(tap_width(c.stages)),

@@ -1,4 +1,4 @@
-//! Touch probe: where the body was when what the control signal is for took effect.
+//! Touch probe: the position at which the operation of the control signal took effect.
 //!
 //! ```text
 //!                        ┌─────────────┐
@@ -8,9 +8,9 @@
 //!                        └─────────────┘
 //! ```
 //!
-//! A control signal need not stop the body (停止制御のみならず): it can begin any operation while the
-//! body goes on. A sensor then says when the operation takes effect. The count of the detector is
-//! kept with its rise, and not a sample, which would be up to a CK older.
+//! A control signal need not stop the body (停止制御のみならず): it can start any operation while the body
+//! moves on. A sensor then says when the operation takes effect. At its rise the count of the
+//! detector is latched, not a sample, which would be up to a CK older.
 
 use crate::hdl::prelude::*;
 
@@ -22,9 +22,9 @@ pub struct TouchProbe {
 }
 
 signals! { for TouchProbe as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// The control signal of an operation stands.
+        /// The control signal of an operation is active.
         pub active: Bit,
         /// The operation takes effect; synchronised.
         pub effect: Bit,
@@ -37,17 +37,17 @@ signals! { for TouchProbe as c;
     pub struct Reg {
         /// `effect`, a tick ago.
         effect_before: Bit = 0,
-        /// It has come since the control signal.
+        /// The effect has come since the control signal.
         pub taken: Bit = 0,
-        /// Where it came.
+        /// Count at the effect.
         latched: I(c.position) as Analog,
     }
     /// Nets.
     pub struct Net {
-        /// It comes, for the first time since the control signal.
+        /// The effect comes, for the first time since the control signal.
         comes: Bit,
-        /// What a positioning is judged by: where the operation took effect, or, up to then, where the
-        /// body is.
+        /// Position by which a positioning is judged: the count at the effect, or, until then, the
+        /// present sample.
         pub measured: I(c.position) as Analog,
     }
 }

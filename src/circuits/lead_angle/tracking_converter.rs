@@ -10,10 +10,10 @@
 //!          └────────────────────────────────────────────────┘
 //! ```
 //!
-//! One winding of the resolver is excited by a carrier, and the other two have its amplitude times sine
-//! and cosine of θ (amplitude mode). Both are sampled by A/D converters at a peak of the carrier, which
-//! demodulates them. The vector (sine, cosine) turned by φ is a·(sin(θ − φ), cos(θ − φ)), a being the
-//! amplitude: so no table of sines is needed, and no product.
+//! One winding of the resolver is excited by a carrier, and the other two have its amplitude times
+//! sine and cosine of θ (amplitude mode). Both are sampled by A/D converters at a peak of the
+//! carrier, which demodulates them. The vector (sine, cosine) turned by φ is a·(sin(θ − φ), cos(θ
+//! − φ)), where a is the amplitude: no table of sines is needed, and no product.
 
 use super::{TrackingLoop, tracking_loop};
 use crate::circuits::blocks::{Cordic, cordic};
@@ -21,8 +21,8 @@ use crate::hdl::prelude::*;
 
 /// Tracking converter.
 ///
-/// `take` is high A + 1 ticks after `strobe`, for the angle that stands until then: what the conversions
-/// before said of this one.
+/// `take` is high A + 1 ticks after `strobe`, for the angle that is valid until then: the
+/// prediction of the conversions before for this one.
 #[derive(Debug, Clone)]
 pub struct TrackingConverter {
     /// S: width of the A/D converters' words, at most A.
@@ -32,8 +32,8 @@ pub struct TrackingConverter {
 }
 
 impl TrackingConverter {
-    /// A converter of words and angles of so many bits, with the [loop](TrackingLoop::new) of such
-    /// angles.
+    /// Creates a converter for words and angles of these widths, with the
+    /// [loop](TrackingLoop::new) for such angles.
     #[must_use]
     pub const fn new(converter: usize, angle: usize) -> Self {
         TrackingConverter {
@@ -57,10 +57,10 @@ impl TrackingConverter {
 }
 
 signals! { for TrackingConverter as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// The words are new, A + 2 ticks after those before at least; what comes sooner is not taken, or
-        /// finds the angle of the conversion before.
+        /// The words are new, at least A + 2 ticks after those before; earlier ones are ignored,
+        /// or use the angle of the conversion before.
         pub strobe: Bit,
         /// The sine winding at a peak of the carrier.
         pub sine: I(c.converter) as Analog,
@@ -74,15 +74,15 @@ signals! { for TrackingConverter as c;
         /// Angle and speed.
         pub tracking: Part<TrackingLoop>(c.tracking.clone()),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// φ, in units of 2^−A pitch.
         pub angle: U(c.tracking.angle) as Analog,
-        /// What it goes in a conversion, in units of 2^−(A + 2·G) pitch.
+        /// Change of the angle per conversion, in units of 2^−(A + 2·G) pitch.
         pub speed: I(c.tracking.phase()) as Analog,
         /// The angle is a place.
         pub take: Bit,
-        /// It is none: there is no signal, or the loop is off it.
+        /// The angle is invalid: there is no signal, or the loop is not locked.
         pub fault: Bit,
     }
 }

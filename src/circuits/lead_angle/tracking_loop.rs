@@ -14,19 +14,20 @@
 //! with a multiple of the error into the angle, once in a conversion. All words are parts of a pitch and
 //! wrap with it.
 //!
-//! The error is rounded to a word of which a unit is wider than one of the angle: there is always an
-//! angle at which it is 0, and a body at rest has an angle that rests.
+//! The error is rounded to a word whose unit is wider than one of the angle: there is always an
+//! angle at which it is 0, so for a body at rest the angle rests too.
 //!
-//! Beyond a quarter of a pitch the sine goes down again, to 0 at half of it, where the loop would stand.
-//! So where the cosine is negative its amount is added: the error grows on to 1.41·a and is a at
-//! half a pitch. There the way up is taken.
+//! Beyond a quarter of a pitch the sine decreases again, to 0 at half a pitch, where the loop
+//! would stop. So where the cosine is negative its amount is added: the error grows on to 1.41·a
+//! and is a at half a pitch. There the loop moves upwards.
 //!
 //! Departures: the text has no such loop. The first conversions after power-on are given to it to
 //! settle, and no place is taken of them.
 
 use crate::hdl::prelude::*;
 
-/// Tracking loop. What a conversion finds is in `phase` from the tick after `done` on, for the next.
+/// Tracking loop. The result of a conversion is in `phase` from the tick after `done` on, for the
+/// next one.
 #[derive(Debug, Clone)]
 pub struct TrackingLoop {
     /// A: width of an angle, in units of 2^−A pitch.
@@ -41,8 +42,8 @@ pub struct TrackingLoop {
 const ROUNDED: usize = 4;
 
 impl TrackingLoop {
-    /// The loop of a detector with angles of so many bits: at 17 its bandwidth is halved twice, and 255
-    /// conversions settle it.
+    /// Creates the loop of a detector for angles of this width: at 17 bits its bandwidth is halved
+    /// twice, and 255 conversions settle it.
     #[must_use]
     pub const fn new(angle: usize) -> Self {
         TrackingLoop {
@@ -52,7 +53,7 @@ impl TrackingLoop {
         }
     }
 
-    /// Width of what comes from the CORDIC: full scale is 2^(A − 1), by √2 and its gain.
+    /// Width of the output of the CORDIC: full scale is 2^(A − 1), times √2 and its gain.
     #[must_use]
     pub const fn vector(&self) -> usize {
         self.angle + 2
@@ -77,20 +78,20 @@ impl TrackingLoop {
 }
 
 signals! { for TrackingLoop as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// A conversion is done; both words stand.
+        /// A conversion is done; both words are valid.
         pub done: Bit,
-        /// a·sin(θ − φ), by the CORDIC's gain.
+        /// a·sin(θ − φ), times the CORDIC's gain.
         pub quadrature: I(c.vector()) as Analog,
-        /// a·cos(θ − φ), likewise.
+        /// a·cos(θ − φ), times the CORDIC's gain.
         pub in_phase: I(c.vector()) as Analog,
     }
     /// Flip-flops.
     pub struct Reg {
         /// φ, in units of 2^−(A + 2·G) pitch; wraps. Its upper A bits are the angle.
         pub phase: U(c.phase()) as Analog = 0,
-        /// What it goes in a conversion, in the same units; wraps.
+        /// Change of the phase per conversion, in the same units; wraps.
         pub speed: I(c.phase()) as Analog = 0,
         /// Conversions since power-on, to the end of their number.
         settled: U(c.settling) = 0,
@@ -101,7 +102,7 @@ signals! { for TrackingLoop as c;
         beyond: Bit,
         /// The error, growing on beyond it.
         folded: I(c.vector()),
-        /// The same with half a unit of the error.
+        /// `folded` plus half a unit of `error`.
         raised: I(c.vector() + 1),
         /// The error rounded.
         error: I(c.angle.saturating_sub(1)) as Analog,
@@ -111,7 +112,7 @@ signals! { for TrackingLoop as c;
         proportional: I(c.phase()),
         /// The angle that the conversion began with is a place.
         pub take: Bit,
-        /// It is none: there is no signal, or the loop is off it.
+        /// The angle is invalid: there is no signal, or the loop is not locked.
         pub fault: Bit,
     }
 }
@@ -157,7 +158,7 @@ impl Circuit for TrackingLoop {
 }
 
 impl Specified for TrackingLoop {
-    /// A vector has no more than full scale in both coordinates, by the CORDIC's gain.
+    /// A vector is at most full scale in both coordinates, times the CORDIC's gain.
     fn applies(&self, i: &In<Value>) -> bool {
         let length = i.quadrature.unsigned_abs() + i.in_phase.unsigned_abs();
         length < 2 << self.angle

@@ -1,5 +1,5 @@
-//! Unwrapper: a position that goes on, from places in a turn or in a pitch. Part of position
-//! detector 10 of JPH0646367B2.
+//! Unwrapper: a continuous position from places in a turn or in a pitch. Part of position detector
+//! 10 of JPH0646367B2.
 //!
 //! ```text
 //!                ┌───────────┐
@@ -10,13 +10,12 @@
 //!                └───────────┘
 //! ```
 //!
-//! What a sensor knows of a position is the place in its turn, or in its pitch. The way from sample to
-//! sample is the shorter one round, and is added to a position that wraps at 2^position only. The
-//! text says nothing of turns.
+//! A sensor knows only the place in its turn, or in its pitch. The shorter way round from sample
+//! to sample is added to a position that wraps at 2^position only. The text says nothing of turns.
 //!
-//! Departures: the position after power-on or `clear` is the place. Beyond a quarter of the modulus in
-//! a sample the way is counted but `lost` is high: half of it more would look the same in the other
-//! direction. A place that is at fault is not counted, and is `lost` too.
+//! Departures: the position after power-on or `clear` is the place. A move of more than a quarter
+//! of the modulus per sample is counted, but `lost` is high: from half of it on a move looks like
+//! one in the other direction. A place with `fault` is not counted, and sets `lost` too.
 
 use crate::hdl::prelude::*;
 
@@ -30,11 +29,11 @@ pub struct Unwrapper {
 }
 
 signals! { for Unwrapper as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// A place is taken.
         pub take: Bit,
-        /// It is none: it is not counted.
+        /// The place is invalid: it is not counted.
         pub fault: Bit,
         /// The place, below the modulus.
         pub place: U(c.place),
@@ -53,7 +52,7 @@ signals! { for Unwrapper as c;
         pub sample: Bit,
         /// Dx: the place, and the turns since; wraps.
         pub position: I(c.position) as Analog = 0,
-        /// The body was too fast, or a place was none, since `clear`.
+        /// The body was too fast, or a place was invalid, since `clear`.
         pub lost: Bit,
     }
     /// Nets.
@@ -70,11 +69,11 @@ signals! { for Unwrapper as c;
         half: I(c.place + 2),
         /// Counts gone since the last sample, in either direction.
         gone: I(c.place + 2),
-        /// The same by the shorter way round.
+        /// Counts gone by the shorter way round.
         way: I(c.place + 2),
-        /// The way is longer than a quarter of the modulus.
+        /// The move is longer than a quarter of the modulus.
         far: Bit,
-        /// What a sample adds to the position.
+        /// Change of the position by this sample.
         step: I(c.position),
     }
 }

@@ -24,7 +24,7 @@ pub struct Widths {
 }
 
 impl Widths {
-    /// Those of the text's table, and room for the rest.
+    /// Widths of the text's table, with room for the rest.
     pub const FULL: Self = Widths {
         stages: codes::STAGES as usize,
         position: 24,
@@ -50,17 +50,17 @@ impl Default for Widths {
     }
 }
 
-/// What is chosen when a compensator is built.
+/// Variants chosen when a compensator is built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Variant {
-    /// What the lead is put on.
+    /// Value that the lead is added to.
     pub placement: Placement,
-    /// When the target is reached.
+    /// Criterion for reaching the target.
     pub comparing: Comparing,
-    /// Which way the error counts.
+    /// Sign convention of the error.
     pub sign: Sign,
-    /// What is made of error and overrun.
+    /// Function of error and overrun.
     pub function: Function,
-    /// What the position comes from.
+    /// Kind of the position detector.
     pub detector: Detector,
 }

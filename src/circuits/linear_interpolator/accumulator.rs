@@ -22,7 +22,7 @@ use super::Integrator;
 use crate::hdl::prelude::*;
 use serde::Deserialize;
 
-/// How the integrator 24 divides: what becomes of the remainder.
+/// Rounding rule of the integrator 24, which determines the remainder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rule {
@@ -53,7 +53,7 @@ impl Rule {
 pub struct Accumulator {
     /// Width of a position in bits; the divider has twice as many.
     pub position: usize,
-    /// How a quotient is rounded.
+    /// Rounding of a quotient.
     pub rule: Rule,
 }
 
@@ -66,25 +66,25 @@ impl Accumulator {
 }
 
 signals! { for (Accumulator, Integrator) as c;
-    /// The line, and what the master axis moves on it.
+    /// The line, and the increment of the master axis.
     pub struct Motion {
         /// A positioning cycle begins: I and B take their first values.
         pub clear: Bit,
         /// Δx: signed distance of the master axis, constant from `clear` on for the whole cycle.
         pub master: I(c.position),
-        /// Δy: signed distance of the slave axis, constant likewise.
+        /// Δy: signed distance of the slave axis, constant from `clear` on for the whole cycle.
         pub slave: I(c.position),
         /// An increment is given; not taken while `busy`.
         pub start: Bit,
-        /// δx(n): what the master moves in this scan.
+        /// δx(n): increment of the master axis in this scan.
         pub increment: I(c.position),
     }
 }
 
 signals! { for Accumulator as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// The line, and what the master axis moves on it.
+        /// The line, and the increment of the master axis.
         pub motion: Motion(c) as Flat,
         /// The divider is done.
         pub done: Bit,
@@ -95,11 +95,11 @@ signals! { for Accumulator as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// I: what the slave has moved since the cycle began.
+        /// I: distance moved by the slave axis since the cycle began.
         pub integral: I(c.position) as Analog = 0,
-        /// B: what the division has left over; it takes part in the next.
+        /// B: remainder of the division; it is carried into the next.
         pub remainder: I(c.position) as Analog = 0,
-        /// A division is under way.
+        /// A division is running.
         pub busy: Bit = 0,
         /// Its result belongs to a cycle that is over, and is not taken.
         dropped: Bit = 0,
@@ -118,7 +118,7 @@ signals! { for Accumulator as c;
         pub multiplicand: U(c.divider()),
         /// |δx|.
         pub multiplier: U(c.position),
-        /// What the remainder brings along.
+        /// Addend for the carried remainder.
         pub addend: U(c.divider()),
         /// |Δx|.
         pub divisor: U(c.divider()),
@@ -132,7 +132,7 @@ signals! { for Accumulator as c;
         way: I(c.position),
         /// The remainder after this division, times the sign of Δx.
         rest_positive: I(c.position),
-        /// δy(n): what the slave moves, in the tick of `done`.
+        /// δy(n): increment of the slave axis, in the tick of `done`.
         step: I(c.position),
         /// The remainder after this division.
         left: I(c.position),

@@ -8,9 +8,9 @@
 //!                        └─────────────┘
 //! ```
 //!
-//! Fig. 5 has X as the master and makes y(n) of it, Fig. 6 the other way round.
+//! In Fig. 5 X is the master and y(n) is computed from it, in Fig. 6 the other way round.
 //!
-//! Departure: both commands change at the same edge, when y(n) is there, so that they always
+//! Departure: both commands change at the same edge, when y(n) is ready, so that they always
 //! belong together.
 
 use super::wrapped;
@@ -24,17 +24,17 @@ pub struct AxisSwitch {
 }
 
 signals! { for AxisSwitch as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// Position and integral of a scan are there.
+        /// Position and integral of a scan are ready.
         pub load: Bit,
         /// Y is the master axis (Fig. 6).
         pub swapped: Bit,
         /// Position command of the master axis.
         pub position: I(c.position),
-        /// Where the slave axis was when the cycle began.
+        /// Position of the slave axis at the start of the cycle.
         pub slave_from: I(c.position),
-        /// I: what the slave axis has moved since.
+        /// I: distance moved by the slave axis since then.
         pub integral: I(c.position),
         /// Both commands become 0.
         pub clear: Bit,

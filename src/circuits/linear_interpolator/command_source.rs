@@ -1,5 +1,5 @@
-//! What makes the position commands of a controller from targets: the linear interpolator, or the
-//! conventional system for comparison. Both have the same ports.
+//! Source of a controller's position commands: the linear interpolator, or the conventional system
+//! for comparison. Both have the same ports.
 //!
 //! ```text
 //!                  ┌────────────────┐
@@ -14,7 +14,7 @@ use super::*;
 use crate::hdl::prelude::*;
 
 choice! {
-    /// What makes the position commands.
+    /// Source of the position commands.
     pub enum CommandSource as CommandPart {
         /// On a straight line.
         Linear(LinearInterpolator),
@@ -35,7 +35,7 @@ impl CommandSource {
 }
 
 signals! { for TargetData as c;
-    /// What the control computer says.
+    /// Commands of the control computer.
     pub struct Orders {
         /// A target is given; not taken unless `ready`, or with `halt`.
         pub push: Bit,
@@ -43,7 +43,7 @@ signals! { for TargetData as c;
         pub target_x: I(c.widths.position),
         /// Its Y.
         pub target_y: I(c.widths.position),
-        /// Speed and times on the way there.
+        /// Speed and times of the move to it.
         pub settings: Settings(c) as Flat,
         /// Ends the cycle, along the line or each axis by its own ramp, and forgets the targets that
         /// wait; one that is pushed with it is kept, and is where the axes go next.
@@ -52,18 +52,18 @@ signals! { for TargetData as c;
 }
 
 signals! { for (LinearInterpolator, Conventional) as c;
-    /// Ports in: scan and control computer.
+    /// Input ports: scan and control computer.
     pub struct In {
         /// A scan begins.
         pub scan: Bit,
         /// No new cycle begins.
         pub hold: Bit,
-        /// What the control computer says.
+        /// Commands of the control computer.
         pub orders: Orders(&c.targets()) as Flat,
         /// Between two cycles: the commands become 0, the flags go.
         pub clear: Bit,
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// Position command x(n).
         pub x: I(c.widths.position) as Analog,
@@ -87,7 +87,7 @@ signals! { for (LinearInterpolator, Conventional) as c;
 }
 
 impl Orders {
-    /// As the buffer of targets takes them.
+    /// Input ports of the buffer of targets, with these orders.
     pub(super) fn to_buffer(&self, pop: Bit) -> target_data::In {
         target_data::In {
             push: self.push,
@@ -100,7 +100,7 @@ impl Orders {
     }
 }
 
-/// The ports out of a source with these circuits inside; `load` is high when it has new commands.
+/// Output ports of a source with these circuits inside; `load` is high when it has new commands.
 pub(super) fn ports_out(
     targets: &Settled<TargetData>,
     sequencer: &Settled<Sequencer>,

@@ -10,26 +10,26 @@
 //!                             └────────────┘
 //! ```
 //!
-//! The same around the conventional system of Fig. 3: what makes the commands is a choice.
+//! The commands come from the linear interpolator or from the conventional system of Fig. 3.
 
 use super::command_source::Orders;
 use super::*;
 use crate::circuits::blocks::{EnableCounter, enable_counter};
 use crate::hdl::prelude::*;
 
-/// Controller 1 around what makes its commands.
+/// Controller 1 around a source of commands.
 #[derive(Debug, Clone)]
 pub struct Controller {
     /// Widths of the position loops; that of a position is given by the commands.
     pub loops: LoopWidths,
     /// Width of the scan counter in bits.
     pub scan: usize,
-    /// What makes the commands.
+    /// Source of the commands.
     pub source: CommandSource,
 }
 
 impl Controller {
-    /// The controller around `source`, with the widths that it is built with.
+    /// Creates the controller around `source`, with the widths of the standard build.
     #[must_use]
     pub fn new(source: CommandSource) -> Self {
         Controller {
@@ -48,9 +48,9 @@ impl Controller {
 }
 
 signals! { for Controller as c;
-    /// Ports in: control computer, settings, encoders.
+    /// Input ports: control computer, settings, encoders.
     pub struct In {
-        /// What the control computer says.
+        /// Commands of the control computer.
         pub orders: Orders(&c.source.targets()) as Flat,
         /// Between two cycles: commands and feedback become 0, the flags go.
         pub clear: Bit,
@@ -77,7 +77,7 @@ signals! { for Controller as c;
     pub struct Parts {
         /// Scan counter.
         pub scan_counter: Part<EnableCounter>(EnableCounter { width: c.scan }),
-        /// What makes the commands.
+        /// Source of the commands.
         pub interpolator: CommandPart(&c.source),
         /// Position loop of X.
         pub loop_x: Part<PositionLoop>(PositionLoop { widths: c.loops() }),
@@ -86,7 +86,7 @@ signals! { for Controller as c;
         /// Cycle gate.
         pub gate: Part<CycleGate>(CycleGate),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// A scan begins.
         pub scan: Bit,

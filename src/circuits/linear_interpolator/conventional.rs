@@ -9,10 +9,10 @@
 //!                       └────────────────────┘
 //! ```
 //!
-//! Ports as those of the linear interpolator, but that speed and times are those of X, and Y has
-//! its own. An abort ends each axis by its own ramp. Both patterns begin together. Which settings
-//! they get makes the two ways of ¶0005: the same for both axes, or speeds in proportion to the
-//! distances with times inverse to them.
+//! Ports are those of the linear interpolator, but speed and times are those of X, and Y has its
+//! own. An abort ends each axis by its own ramp. Both patterns start together. The settings make
+//! the two methods of ¶0005: the same for both axes, or speeds in proportion to the distances with
+//! times inverse to them.
 
 use super::command_source::ports_out;
 pub use super::command_source::{In, Net};
@@ -80,7 +80,7 @@ impl Circuit for Conventional {
         };
         let x = pattern(p.pattern_x, 0, at.x, cycle.delta_x).w;
         let y = pattern(p.pattern_y, 1, at.y, cycle.delta_y).w;
-        // Both take the same time for a scan; one of them may be at rest.
+        // Both patterns take the same time for a scan; one of them may be at rest.
         let valid = x.valid | y.valid;
         let sequencer = p.sequencer.settle(sequencer::In {
             scan: i.scan,

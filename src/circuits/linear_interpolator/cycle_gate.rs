@@ -17,7 +17,7 @@ use crate::hdl::prelude::*;
 pub struct CycleGate;
 
 signals! { for CycleGate as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Cycles wait for the axes.
         pub exact_stop: Bit,

@@ -23,11 +23,11 @@ pub struct Differentiator {
 }
 
 signals! { for Differentiator as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// A positioning cycle begins.
         pub load: Bit,
-        /// Where it begins.
+        /// Position at which it begins.
         pub from: I(c.position),
         /// `position` is new.
         pub valid: Bit,

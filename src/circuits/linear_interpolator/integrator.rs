@@ -1,5 +1,5 @@
-//! Integrator 24 (¶0011–0013, eq. (1)): what the slave axis moves when the master moves by δx,
-//! by an integer division whose remainder takes part in the next.
+//! Integrator 24 (¶0011–0013, eq. (1)): the distance of the slave axis when the master moves by
+//! δx, by an integer division whose remainder is carried into the next.
 //!
 //! ```text
 //!                     ┌────────────┐
@@ -24,7 +24,7 @@ use crate::hdl::prelude::*;
 pub struct Integrator {
     /// Width of a position in bits; the divider has twice as many.
     pub position: usize,
-    /// How a quotient is rounded.
+    /// Rounding of a quotient.
     pub rule: Rule,
 }
 
@@ -51,11 +51,11 @@ signals! { for Integrator as c;
         /// The divider.
         pub mul_div: Part<MulDiv>(c.mul_div()),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
-        /// I: what the slave has moved since the cycle began.
+        /// I: distance moved by the slave axis since the cycle began.
         pub integral: I(c.position) as Analog,
-        /// B: what the division has left over.
+        /// B: remainder of the division.
         pub remainder: I(c.position) as Analog,
         /// A start is not taken.
         pub busy: Bit,

@@ -19,9 +19,9 @@ use crate::hdl::prelude::*;
 pub struct LinearInterpolator {
     /// Its widths, by name.
     pub widths: Widths,
-    /// How a quotient of the integrator is rounded.
+    /// Rounding of the integrator's quotients.
     pub rule: Rule,
-    /// Which axis leads.
+    /// Choice of the master axis.
     pub master: MasterAxis,
 }
 
@@ -49,8 +49,8 @@ impl LinearInterpolator {
         }
     }
 
-    /// Ticks from `scan` to the tick in which the commands of that scan stand. A scan that is
-    /// shorter is late.
+    /// Ticks from `scan` to the tick in which the commands of that scan are valid. A shorter scan
+    /// is late.
     #[must_use]
     pub const fn latency(&self) -> u64 {
         1 + self.widths.pattern().scan_latency() + self.integrator().latency() + 1

@@ -21,7 +21,7 @@ pub struct LineLaw {
 }
 
 signals! { for LineLaw as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// A positioning cycle begins, with new distances.
         pub clear: Bit,
@@ -31,7 +31,7 @@ signals! { for LineLaw as c;
         pub slave: I(c.integrator.position),
         /// An increment is given.
         pub start: Bit,
-        /// It.
+        /// The increment.
         pub increment: I(c.integrator.position),
     }
     /// Flip-flops.
@@ -103,12 +103,12 @@ impl Circuit for LineLaw {
     }
 }
 
-/// Whether `value` lies between 0 and `end`, both included.
+/// Returns true if `value` lies between 0 and `end`, both included.
 fn on_the_way(value: i64, end: i64) -> bool {
     (0.min(end)..=0.max(end)).contains(&value)
 }
 
-/// Whether nothing is being divided.
+/// Returns true if no division is running.
 fn settled(now: &Sample<'_, LineLaw>) -> bool {
     !now.p.integrator.p.accumulator.q.busy
 }
@@ -139,7 +139,7 @@ impl Specified for LineLaw {
                     let [master, slave, sum, _, remainder] = words(now);
                     let sign = match rule {
                         Rule::Floor | Rule::Centred => master.signum(),
-                        // Of the dividend of this division, which a remainder other than 0 shares.
+                        // Sign of this division's dividend, which a remainder other than 0 shares.
                         Rule::Truncating => remainder.signum(),
                     };
                     let right = remainder.abs() < master.abs().max(1) && remainder * sign >= 0;

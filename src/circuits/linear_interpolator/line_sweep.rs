@@ -8,10 +8,10 @@
 //!                     └────────────┘
 //! ```
 //!
-//! Under the rules floor and centred what stands after the first is a function of the point reached
-//! alone, and so is what stands after the second. A longer sequence of increments is made of such
-//! steps, so the law holds for it too. Under these rules the segment may be left: I is then right modulo
-//! 2^P. Truncation is checked on the segment.
+//! Under the rules floor and centred the state after the first increment depends on the point
+//! reached alone, and so does the state after the second. A longer sequence of increments consists
+//! of such steps, so the law holds for it too. Under these rules the increments may leave the
+//! segment: I is then right modulo 2^P. Truncation is checked on the segment.
 
 use super::{Integrator, Rule, integrator};
 use crate::check::Law;
@@ -26,7 +26,7 @@ pub struct LineSweep {
 }
 
 impl LineSweep {
-    /// That of an integrator.
+    /// Creates the law of an integrator.
     #[must_use]
     pub const fn new(integrator: Integrator) -> Self {
         LineSweep { integrator }
@@ -56,7 +56,7 @@ signals! { for LineSweep as c;
         ticks: U(log2(c.ticks() as usize)),
         /// `valid` was high in the tick of the first increment.
         first: Bit,
-        /// It was high in any other.
+        /// `valid` was high in any other tick.
         wrong: Bit,
     }
     /// The circuit inside.
@@ -64,7 +64,7 @@ signals! { for LineSweep as c;
         /// Integrator 24.
         pub integrator: Part<Integrator>(c.integrator.clone()),
     }
-    /// What is seen of it.
+    /// Observed signals.
     pub struct Net {
         /// I after the second increment.
         pub integral: I(c.integrator.position),
@@ -109,7 +109,7 @@ impl Circuit for LineSweep {
     }
 }
 
-/// `a / b` rounded by `rule`, whose first remainder is in `a`.
+/// Returns `a / b` rounded by `rule`; `a` includes the first remainder.
 fn divided(rule: Rule, a: i64, b: i64) -> i64 {
     match rule {
         Rule::Truncating => a / b,

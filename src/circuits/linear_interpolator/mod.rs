@@ -15,8 +15,8 @@
 //! ```
 //!
 //! Every *scan* one axis, the master, gets the next position of a trapezoid, and the other, the
-//! slave, the position on the straight line that belongs to it, by an integer division whose
-//! remainder is carried on. `rtl_notes/linear_interpolator/README.md` is the note of this circuit.
+//! slave, the corresponding position on the straight line, by an integer division whose remainder
+//! is carried on. `rtl_notes/linear_interpolator/README.md` is the note of this circuit.
 
 pub mod accumulator;
 pub mod axis_switch;
@@ -56,7 +56,7 @@ pub use target_data::TargetData;
 pub use trapezoid::Trapezoid;
 pub use widths::{LoopWidths, Widths};
 
-/// A number as a signed word of so many bits has it.
+/// Returns a number wrapped to a signed word of `width` bits.
 fn wrapped(number: i64, width: usize) -> i64 {
     let unused = 64 - width;
     number << unused >> unused

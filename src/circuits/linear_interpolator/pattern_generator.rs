@@ -49,8 +49,8 @@ impl PatternGenerator {
         1 + 3 * (mul_div.product_latency() + 1) + mul_div.latency() + 1
     }
 
-    /// Ticks by which [`prepare_latency`](Self::prepare_latency) grows at most where the
-    /// multiplier-divider is still at what an abort has dropped.
+    /// Largest delay, in ticks, of [`prepare_latency`](Self::prepare_latency) while the
+    /// multiplier-divider finishes an aborted operation.
     #[must_use]
     pub const fn prepare_delay(&self) -> u64 {
         self.mul_div().latency() - 2
@@ -71,15 +71,15 @@ signals! { for PatternGenerator as c;
         /// Multiplier-divider.
         pub mul_div: Part<MulDiv>(c.mul_div()),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// x(n): the position.
         pub position: I(c.position) as Analog,
-        /// A new position stands at `position` from this tick on.
+        /// A new position is at `position` from this tick on.
         pub valid: Bit,
         /// `advance` is taken.
         pub ready: Bit,
-        /// A cycle is under way.
+        /// A cycle is running.
         pub active: Bit,
     }
 }

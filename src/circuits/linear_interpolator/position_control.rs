@@ -16,7 +16,7 @@
 //!
 //! The text has a gain and a D/A converter and says nothing of fraction bits, rounding or
 //! saturation, and it has no in-position window. Here the product is rounded to nearest, halves
-//! away from zero, and the range of the converter is symmetric, so that the loop does the same
+//! away from zero, and the range of the converter is symmetric, so that the loop behaves equally
 //! in both directions.
 
 use super::LoopWidths;
@@ -42,7 +42,7 @@ impl PositionControl {
 }
 
 signals! { for PositionControl as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Loads the reference, and nothing else does.
         pub scan: Bit,
@@ -57,7 +57,7 @@ signals! { for PositionControl as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// 12: speed reference, the word of the D/A converter; at most 2^(D−1) − 1 either way.
+        /// 12: speed reference, the word of the D/A converter; from −(2^(D−1) − 1) to 2^(D−1) − 1.
         pub speed_ref: I(c.widths.converter) as Analog = 0,
         /// The reference is at its limit.
         pub saturated: Bit = 0,

@@ -11,8 +11,8 @@
 //!               └───────────────┘
 //! ```
 //!
-//! A level of the encoder that stands at the pin in tick n is in the feedback of a scan from tick
-//! n + 3 on, and in the reference a tick after that scan.
+//! A level of the encoder that is at the pin in tick n is in the feedback of a scan from tick n +
+//! 3 on, and in the reference a tick after that scan.
 
 use super::{LoopWidths, PositionControl, position_control, wrapped};
 use crate::circuits::blocks::{QuadratureCounter, quadrature_counter};
@@ -26,9 +26,9 @@ pub struct PositionLoop {
 }
 
 signals! { for PositionLoop as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// Strobe: makes the speed reference from what stands there.
+        /// Strobe: computes the speed reference from the inputs of this tick.
         pub scan: Bit,
         /// Position command in counts.
         pub command: I(c.widths.position) as Analog,
@@ -50,7 +50,7 @@ signals! { for PositionLoop as c;
         /// Position control 10–12.
         pub control: Part<PositionControl>(PositionControl { widths: c.widths }),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// Speed reference N_ref, the word of the D/A converter.
         pub speed_ref: I(c.widths.converter) as Analog,
@@ -134,7 +134,7 @@ impl Specified for PositionLoop {
             })
     }
 
-    /// Of the windows 0 and 1 only: the others are those of the position control.
+    /// Windows 0 and 1 only: the others are those of the position control.
     fn applies(&self, i: &In<Value>) -> bool {
         i.window < 2
     }

@@ -11,13 +11,13 @@
 //!                                      └───────────┘
 //! ```
 //!
-//! Which axis is the master is a choice: the one with the greater distance (claim 2), or always the
-//! same one (claim 1).
+//! The master axis is either the one with the greater distance (claim 2), or always the same one
+//! (claim 1).
 //!
-//! Departures: a cycle starts from the command that stands, not from the target before, so that a
-//! cycle that was aborted leaves nothing behind. A target that is farther away than a signed word
-//! of the position's width can say is refused. A scan that comes before the last one is computed
-//! is left out, and flagged. Where a fixed master axis stands still, the other one leads: its own
+//! Departures: a cycle starts from the present command, not from the target before, so that an
+//! aborted cycle has no effect on the next. A target farther away than the range of a signed word
+//! of the position's width is refused. A scan that comes before the last one is computed is
+//! skipped and flagged. Where a fixed master axis does not move, the other one leads: its own
 //! distance would be a division by zero.
 
 use crate::hdl::Registers;
@@ -33,16 +33,16 @@ const PLAN: u64 = 3;
 const BEGIN: u64 = 4;
 const RUN: u64 = 5;
 
-/// Which axis gets the position pattern, and leads the other.
+/// Axis that gets the position pattern, and leads the other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MasterAxis {
     /// The one with the greater distance, X where they are alike (claim 2, ¶0014).
     #[default]
     Longer,
-    /// X (claim 1), unless it stands.
+    /// X (claim 1), unless it does not move.
     X,
-    /// Y, unless it stands.
+    /// Y, unless it does not move.
     Y,
 }
 
@@ -68,7 +68,7 @@ impl MasterAxis {
         })
     }
 
-    /// Whether Y leads.
+    /// High if Y leads.
     fn swapped(self, [x, y]: [U; 2]) -> Bit {
         match self {
             MasterAxis::Longer => x.below(y),
@@ -83,12 +83,12 @@ impl MasterAxis {
 pub struct Sequencer {
     /// Width of a position in bits.
     pub position: usize,
-    /// Which axis leads.
+    /// Choice of the master axis.
     pub master: MasterAxis,
 }
 
 signals! { for Sequencer as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// A scan begins.
         pub scan: Bit,
@@ -108,26 +108,26 @@ signals! { for Sequencer as c;
         pub x: I(c.position),
         /// Position command of Y.
         pub y: I(c.position),
-        /// The position pattern is under way.
+        /// The position pattern is running.
         pub pattern_active: Bit,
-        /// It takes an `advance`.
+        /// The position pattern takes an `advance`.
         pub pattern_ready: Bit,
-        /// It shows a new position.
+        /// The position pattern has a new position.
         pub pattern_valid: Bit,
         /// The integrator divides.
         pub integrating: Bit,
-        /// It shows a new integral: the commands of a scan are complete.
+        /// The integrator has a new integral: the commands of a scan are complete.
         pub load: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// Where it stands.
+        /// State of the sequence.
         pub state: U(3) as States(STATES) = 0,
         /// The next target is wanted.
         pub pop: Bit = 0,
         /// A cycle begins.
         pub start: Bit = 0,
-        /// The commands of a scan are to be computed.
+        /// Starts the computation of a scan's commands.
         pub advance: Bit = 0,
         /// Distance in X.
         pub delta_x: I(c.position) = 0,
@@ -137,9 +137,9 @@ signals! { for Sequencer as c;
         too_far: Bit = 0,
         /// Y is the master axis (Fig. 6).
         pub swapped: Bit = 0,
-        /// Where the master axis starts.
+        /// Position of the master axis at the start.
         pub master_from: I(c.position) = 0,
-        /// Where the slave axis starts.
+        /// Position of the slave axis at the start.
         pub slave_from: I(c.position) = 0,
         /// Δ of the master axis.
         pub master: I(c.position) = 0,
@@ -170,7 +170,7 @@ signals! { for Sequencer as c;
         far_y: Bit,
         /// The target is refused.
         refuses: Bit,
-        /// What is prepared is given up.
+        /// The cycle in preparation is aborted.
         ends: Bit,
         /// The cycle is over.
         over: Bit,
@@ -183,7 +183,7 @@ signals! { for Sequencer as c;
     }
 }
 
-/// Whether `a - b`, which wraps, has the wrong sign.
+/// High if `a - b`, which wraps, has the wrong sign.
 fn overflows(a: I, b: I) -> Bit {
     let apart = a.is_negative() ^ b.is_negative();
     apart & ((a - b).is_negative() ^ a.is_negative())

@@ -1,4 +1,4 @@
-//! Target data 20 (¶0004): the positioning cycles to come, first in, first out.
+//! Target data 20 (¶0004): the next positioning cycles, first in, first out.
 //!
 //! ```text
 //!                          ┌─────────────┐
@@ -29,20 +29,20 @@ const DECELERATIONS: &[&str] = &["decelerations", "decel_y"];
 /// Target data 20: a buffer of targets, each with settings of speed and times for both axes or for
 /// each.
 ///
-/// A target is available in the tick after its push, and stands at the outputs in the tick after
-/// its pop, until the next.
+/// A target is available in the tick after its push, and is at the outputs from the tick after its
+/// pop until the next.
 #[derive(Debug, Clone)]
 pub struct TargetData {
     /// Its widths, by name.
     pub widths: Widths,
-    /// How many settings a target has: one for both axes, or two, X's and Y's.
+    /// Number of settings of a target: 1 for both axes, or 2, X's and Y's.
     pub settings: usize,
 }
 
 signals! { for TargetData as c;
     /// Settings of a target: one of each for both axes, or X's and Y's.
     pub struct Settings {
-        /// Steady speed on the way there: counts a scan, with `T` bits of fraction; one of the master
+        /// Steady speed of the move: counts per scan, with `T` bits of fraction; one of the master
         /// axis, or one of each axis.
         pub speed: [U(c.widths.position); c.settings] as Elements(SPEED),
         /// Acceleration time in scans.
@@ -50,7 +50,7 @@ signals! { for TargetData as c;
         /// Deceleration time in scans.
         pub deceleration_time: [U(c.widths.time); c.settings] as Elements(DECELERATION_TIME),
     }
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// A target is given; not taken unless `ready`.
         pub push: Bit,
@@ -58,18 +58,18 @@ signals! { for TargetData as c;
         pub x: I(c.widths.position),
         /// Its Y.
         pub y: I(c.widths.position),
-        /// Speed and times on the way there.
+        /// Speed and times of the move to it.
         pub settings: Settings(c) as Flat,
         /// The next target comes to the outputs, if there is one.
         pub pop: Bit,
-        /// What was pushed before this tick is forgotten.
+        /// Discards the targets pushed before this tick.
         pub flush: Bit,
     }
     /// Flip-flops and memories.
     pub struct Reg {
-        /// Where the next target is written.
+        /// Write address of the next target.
         write_address: U(c.widths.address) as Hex = 0,
-        /// Where the next target is read.
+        /// Read address of the next target.
         read_address: U(c.widths.address) as Hex = 0,
         /// X of the target that was popped last.
         pub target_x: I(c.widths.position) = 0,
@@ -177,7 +177,7 @@ impl TargetData {
             .collect()
     }
 
-    /// The target at the ports in.
+    /// Words of the target at the input ports.
     fn given(&self, i: &In<Value>) -> Vec<u64> {
         let settings = &i.settings;
         let times = settings
@@ -193,7 +193,7 @@ impl TargetData {
         self.fields([q.target_x, q.target_y], q.target_speed.iter().chain(times))
     }
 
-    /// How many targets wait in the buffer.
+    /// Number of targets that wait in the buffer.
     fn level(&self, q: &Reg<Value>) -> u64 {
         let words = 1 << self.widths.address;
         (q.write_address + words - q.read_address) % words

@@ -1,4 +1,5 @@
-//! Control of the position pattern generator 14 (¶0010): what it multiplies and divides, and when.
+//! Control of the position pattern generator 14 (¶0010): operands and timing of its products and
+//! divisions.
 //!
 //! ```text
 //!                              ┌───────────┐
@@ -9,17 +10,18 @@
 //!                              └───────────┘    multiplier, addend, divisor
 //! ```
 //!
-//! The speed is a `level` that goes up by Td in a scan of acceleration and down by Ta in one of
-//! deceleration, so that Ta scans up and Td scans down both span Ta·Td. A scan weighs the levels
-//! at its two ends, and makes that share of the distance of which all weights together are the
-//! whole; what the division leaves goes into the next scan, so that nothing is lost.
+//! The speed is a `level` that rises by Td per scan of acceleration and falls by Ta per scan of
+//! deceleration, so that Ta scans up and Td scans down both span Ta·Td. The weight of a scan is
+//! the sum of the levels at its two ends; the scan moves weight/W of the distance, where W is the
+//! sum of all weights. The remainder of the division is carried into the next scan, so that
+//! nothing is lost.
 //!
 //! The speed has a fraction, so that a slow one is not rounded to whole counts a scan.
 //!
 //! Departures: the text says nothing of the discrete form. Every cycle ends exactly at its target;
 //! a short one keeps its times and has a lower peak; times of 0 count as 1, a speed of 0 as the
-//! least; `halt` ramps down from the present level, along the same line; a cycle has no more
-//! than 2^(P−1) − 1 steady scans, and goes faster than V where those are too few.
+//! least; `halt` ramps down from the present level, along the same line; a cycle has at most
+//! 2^(P−1) − 1 steady scans, and goes faster than V where those are too few.
 
 use super::PatternGenerator;
 use crate::hdl::prelude::*;
@@ -66,8 +68,8 @@ impl Trapezoid {
 signals! { for (Trapezoid, PatternGenerator) as c;
     /// A cycle, and its scans.
     pub struct Cycle {
-        /// Begins a cycle, unless one is under way; the ports down to `deceleration_time` are
-        /// taken with it.
+        /// Starts a cycle, unless one is running; the ports down to `deceleration_time` are taken
+        /// with it.
         pub start: Bit,
         /// Position at the start.
         pub from: I(c.position),
@@ -81,13 +83,13 @@ signals! { for (Trapezoid, PatternGenerator) as c;
         pub deceleration_time: U(c.time),
         /// Makes the next position, if `ready`.
         pub advance: Bit,
-        /// Ends the cycle: before its first scan at once, later by a ramp down.
+        /// Ends the cycle: immediately before its first scan, later by a ramp down.
         pub halt: Bit,
     }
 }
 
 signals! { for Trapezoid as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// A cycle, and its scans.
         pub cycle: Cycle(c) as Flat,
@@ -100,13 +102,13 @@ signals! { for Trapezoid as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// What it does.
+        /// State of the sequence.
         state: U(3) as States(STATES) = 0,
-        /// What the speed does in the next scan.
+        /// Phase of the next scan.
         phase: U(2) as States(PHASES) = 0,
-        /// The multiplier-divider is to begin.
+        /// Starts the multiplier-divider.
         request: Bit = 0,
-        /// The multiplier-divider is at it, or shows `done`.
+        /// The multiplier-divider is running, or shows `done`.
         under_way: Bit = 0,
         /// Length |Δ| of the cycle.
         length: U(c.position) = 0,
@@ -118,7 +120,7 @@ signals! { for Trapezoid as c;
         ramp_up: U(c.time) = 0,
         /// Td in scans.
         ramp_down: U(c.time) = 0,
-        /// Tc: scans of steady speed that are yet to come.
+        /// Tc: remaining scans of steady speed.
         steady_scans: U(c.position) = 0,
         /// Ta·Td: level of the steady speed.
         peak: U(c.multiplier()) = 0,
@@ -128,18 +130,18 @@ signals! { for Trapezoid as c;
         level: U(c.multiplier()) as Analog = 0,
         /// x(n): the position.
         pub position: I(c.position) as Analog = 0,
-        /// A new position stands at `position` from this tick on.
+        /// A new position is at `position` from this tick on.
         pub valid: Bit = 0,
         /// `advance` is taken.
         pub ready: Bit = 0,
-        /// A cycle is under way.
+        /// A cycle is running.
         pub active: Bit = 0,
     }
     /// Nets.
     pub struct Net {
         /// A start is taken.
         take: Bit,
-        /// It begins a cycle.
+        /// The start begins a cycle.
         begins: Bit,
         /// An abort ends the cycle with this tick.
         drop: Bit,
@@ -147,7 +149,7 @@ signals! { for Trapezoid as c;
         scans: Bit,
         /// The multiplier-divider begins.
         pub compute: Bit,
-        /// It has the result of what was requested last, and a cycle wants it.
+        /// The multiplier-divider has the last requested result, and a cycle needs it.
         result: Bit,
         /// Only the product is wanted.
         pub product_only: Bit,
@@ -157,7 +159,7 @@ signals! { for Trapezoid as c;
         pub multiplier: U(c.multiplier()),
         /// Added to the product.
         pub addend: U(c.word()),
-        /// What the sum is divided by.
+        /// Divisor of the sum.
         pub divisor: U(c.word()),
         /// Ta + Td.
         times: U(c.word()),
@@ -167,9 +169,9 @@ signals! { for Trapezoid as c;
         speed_twice: U(c.word()),
         /// Tc would be 2^(P−1) or more.
         endless: Bit,
-        /// How far the scan moves.
+        /// Distance of the scan.
         share: I(c.position),
-        /// The next step of the preparation is asked for.
+        /// Requests the next step of the preparation.
         prepares: Bit,
         /// 2|Δ| − V(Ta + Td) + 2V − 1, or 0 where the ramps alone are too long: Tc times 2V.
         excess: U(c.word()),
@@ -179,9 +181,9 @@ signals! { for Trapezoid as c;
         weight: U(c.multiplier()),
         /// Scans of steady speed after this one.
         left: U(c.position),
-        /// What the speed does in the scan after this one.
+        /// Phase of the scan after this one.
         next_phase: U(2) as States(PHASES),
-        /// What it does in the next tick.
+        /// State of the next tick.
         next_state: U(3) as States(STATES),
     }
 }

@@ -3,7 +3,7 @@
 
 use super::PatternGenerator;
 
-/// Widths of what makes position commands.
+/// Widths of the circuits that make position commands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Widths {
     /// An address in the buffer of targets, which holds 2^`address` − 1 of them.
@@ -16,7 +16,7 @@ pub struct Widths {
 }
 
 impl Widths {
-    /// Those that it is built with.
+    /// Widths of the standard build.
     pub const FULL: Self = Widths {
         address: 6,
         position: 32,
@@ -52,7 +52,7 @@ pub struct LoopWidths {
 }
 
 impl LoopWidths {
-    /// Those that it is built with.
+    /// Widths of the standard build.
     pub const FULL: Self = LoopWidths {
         position: 32,
         gain: 16,

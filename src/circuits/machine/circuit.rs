@@ -1,4 +1,4 @@
-//! The machine: what the control computer of an X-Y plotter is connected to.
+//! The machine: the circuits that the control computer of an X-Y plotter is connected to.
 //!
 //! ```text
 //!                          ┌─────────┐
@@ -25,7 +25,7 @@ use crate::hdl::prelude::*;
 /// Two steppers, two servos and a pen lift on one clock.
 #[derive(Debug, Clone)]
 pub struct Machine {
-    /// Pulses of the steppers.
+    /// Pulses of the step motors.
     pub pulse_interpolator: Group,
     /// Commands of the servos on lines.
     pub linear_interpolator: LinearInterpolator,
@@ -83,7 +83,7 @@ impl Machine {
 }
 
 signals! { for Machine as c;
-    /// Ports in: the control computer, the encoders.
+    /// Input ports: the control computer, the encoders.
     pub struct In {
         /// Ends every movement where it is.
         pub halt: Bit,
@@ -104,7 +104,7 @@ signals! { for Machine as c;
     pub struct Parts {
         /// Unit time, scan, CK, Ts.
         pub enables: Part<Enables>(c.enables()),
-        /// Pulses of the steppers.
+        /// Pulses of the step motors.
         pub pulse_interpolator: Part<Group>(c.pulse_interpolator.clone()),
         /// Commands of the servos on lines.
         pub linear_interpolator: Part<LinearInterpolator>(c.linear_interpolator.clone()),
@@ -117,7 +117,7 @@ signals! { for Machine as c;
         /// Lifts and lowers the pen.
         pub lead_angle: Part<Compensator>(c.lead_angle.clone()),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// Step pulses of X.
         pub step_x: Bit,
@@ -137,15 +137,15 @@ signals! { for Machine as c;
         pub counts_y: I(c.command_join().line) as Analog,
         /// A target is taken.
         pub lines_ready: Bit,
-        /// A line is under way.
+        /// A line is running.
         pub lines_busy: Bit,
         /// There is a free record of an arc.
         pub arcs_ready: Bit,
-        /// An arc is under way.
+        /// An arc is running.
         pub arcs_busy: Bit,
         /// There is a free record of the profile.
         pub profile_ready: Bit,
-        /// The profile is under way.
+        /// The profile is running.
         pub profile_busy: Bit,
         /// Torque of X.
         pub torque_x: I(c.trajectory_controller.widths.torque) as Analog,
@@ -157,7 +157,7 @@ signals! { for Machine as c;
         pub position_y: I(c.trajectory_controller.widths.position) as Analog,
         /// The pen lift's motor is on.
         pub drive: Bit,
-        /// It turns downwards.
+        /// The pen lift's motor turns downwards.
         pub reverse: Bit,
         /// Its speed.
         pub speed: U(c.lead_angle.widths.speed),

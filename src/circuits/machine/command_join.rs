@@ -1,5 +1,5 @@
-//! Command join: the position command of an X-Y machine, of which the lines come from one circuit
-//! and the arcs from another.
+//! Command join: the position command of an X-Y machine whose lines come from one circuit and
+//! whose arcs come from another.
 //!
 //! ```text
 //!                    ┌──────────────┐
@@ -9,32 +9,33 @@
 //!                    └──────────────┘
 //! ```
 //!
-//! Each of the two counts only its own way and rests while the other moves, so the sum is the whole
-//! path. It is taken once in a sampling time: whoever computes with it in between sees it rest.
+//! Each of the two counts only its own distance and rests while the other moves, so the sum is the
+//! whole path. It is sampled once in a sampling time, so a circuit that computes with it in
+//! between sees a constant value.
 
 use crate::hdl::prelude::*;
 
-/// Join of two ways. A command shows one tick after `take`.
+/// Join of two distances. A command shows one tick after `take`.
 #[derive(Debug, Clone)]
 pub struct CommandJoin {
-    /// Width of the way on lines, and of a command.
+    /// Width of the distance on lines, and of a command.
     pub line: usize,
-    /// Width of the way on arcs, not wider.
+    /// Width of the distance on arcs, not wider.
     pub arc: usize,
 }
 
 signals! { for CommandJoin as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The sum is taken.
         pub take: Bit,
-        /// Way on lines, X, in counts.
+        /// Distance on lines, X, in counts.
         pub line_x: I(c.line),
-        /// Way on lines, Y.
+        /// Distance on lines, Y, in counts.
         pub line_y: I(c.line),
-        /// Way on arcs, X, in counts.
+        /// Distance on arcs, X, in counts.
         pub arc_x: I(c.arc),
-        /// Way on arcs, Y.
+        /// Distance on arcs, Y, in counts.
         pub arc_y: I(c.arc),
     }
     /// Flip-flops.
@@ -46,9 +47,9 @@ signals! { for CommandJoin as c;
     }
     /// Nets.
     pub struct Net {
-        /// Both ways together, X, as they stand.
+        /// Sum of both distances, X, in this tick.
         pub counts_x: I(c.line) as Analog,
-        /// Y.
+        /// Sum of both distances, Y, in this tick.
         pub counts_y: I(c.line) as Analog,
     }
 }

@@ -36,7 +36,7 @@ impl Default for Enables {
 }
 
 signals! { for Enables as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// T: ticks of a unit time; 0 counts as 1, as in the others.
         pub unit_period: U(c.width),
@@ -49,16 +49,16 @@ signals! { for Enables as c;
     }
     /// The counters.
     pub struct Parts {
-        /// Of the unit time.
+        /// Counter of the unit time.
         pub unit_counter: Part<EnableCounter>(c.counter()),
-        /// Of the scan.
+        /// Counter of the scan.
         pub scan_counter: Part<EnableCounter>(c.counter()),
-        /// Of CK.
+        /// Counter of CK.
         pub ck_counter: Part<EnableCounter>(c.counter()),
-        /// Of Ts.
+        /// Counter of Ts.
         pub sample_counter: Part<EnableCounter>(c.counter()),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// The unit time ends.
         pub unit: Bit,

@@ -14,7 +14,8 @@
 //!                                                  ▲ encoders of X, Y
 //! ```
 //!
-//! `rtl_notes/machine/README.md` has the wiring, the control computer and what the patents leave open.
+//! `rtl_notes/machine/README.md` describes the wiring, the control computer and what the patents
+//! leave open.
 
 pub mod circuit;
 pub mod command_join;

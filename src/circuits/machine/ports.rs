@@ -1,5 +1,5 @@
-//! Ports of the machine, a bundle for each circuit: what its control computer gives it. Those of the
-//! arc generator are its own.
+//! Ports of the machine, a bundle for each circuit with the inputs from its control computer. The
+//! arc generator has its own.
 
 use crate::circuits::blocks::RecordWrite;
 use crate::circuits::lead_angle::Compensator;
@@ -30,9 +30,10 @@ signals! { for Group as c;
         pub base: U(c.widths.address) as Hex,
         /// Last address of it.
         pub last: U(c.widths.address) as Hex,
-        /// It runs; low: it stops the one that runs.
+        /// High: starts the pattern; low: stops the running one.
         pub run: Bit,
-        /// It is taken at the next end of a unit time; low: when the one that runs is over.
+        /// High: the command is taken at the next end of a unit time; low: at the end of the
+        /// running pattern.
         pub now: Bit,
         /// Writes the words of all axes.
         pub port: WritePort(&c.widths) as Flat,
@@ -45,11 +46,11 @@ signals! { for LinearInterpolator as c;
     pub struct Lines {
         /// A target is given.
         pub push: Bit,
-        /// Its X, on the way of all lines.
+        /// Its X in counts; arcs are not counted.
         pub target_x: I(c.widths.position),
         /// Its Y.
         pub target_y: I(c.widths.position),
-        /// Speed and times on the way there.
+        /// Speed and times of the move to it.
         pub settings: Settings(&c.targets()) as Flat,
     }
 }
@@ -70,13 +71,13 @@ signals! { for TrajectoryController as c;
         pub path_end: I(c.widths.point),
         /// K1 and K2 of all models.
         pub model_gains: ModelGains(&c.widths.model()) as Flat,
-        /// Of the position controls.
+        /// Gains of the position controls.
         pub position_gain: [U(c.widths.servo_gain); c.axes] as Elements(POSITION_GAIN),
-        /// Of the speed controls, proportional.
+        /// Proportional gains of the speed controls.
         pub speed_gain: [U(c.widths.servo_gain); c.axes] as Elements(SPEED_GAIN),
-        /// Integral.
+        /// Integral gains of the speed controls.
         pub integral_gain: [U(c.widths.servo_gain); c.axes] as Elements(INTEGRAL_GAIN),
-        /// Of the feed-forward.
+        /// Gains of the feed-forward.
         pub inertia: [U(c.widths.servo_gain); c.axes] as Elements(INERTIA),
         /// Largest torques.
         pub limit: [U(c.widths.torque); c.axes] as Elements(LIMIT),

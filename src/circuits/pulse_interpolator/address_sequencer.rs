@@ -8,8 +8,8 @@
 //!                  └───────────────────┘
 //! ```
 //!
-//! Everything happens at RST: the address counts up, the pattern starts again, ends, or gives way
-//! to the waiting command.
+//! All changes happen at RST: the address counts up, the pattern starts again, ends, or is
+//! replaced by the waiting command.
 //!
 //! Departures: the text counts without end. Here a pattern has a last address, where it loops or
 //! stops; stopped, the address is held and no axis gets pulses. At power-on the sequencer is
@@ -28,7 +28,7 @@ pub struct AddressSequencer {
 }
 
 signals! { for AddressSequencer as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Last tick of the unit time.
         pub unit_rst: Bit,
@@ -40,14 +40,14 @@ signals! { for AddressSequencer as c;
         pub pending_last: U(c.width) as Hex,
         /// Its pattern starts again after its last word.
         pub pending_cyclic: Bit,
-        /// It starts a pattern; low: it stops the one that runs.
+        /// High: starts a pattern; low: stops the running one.
         pub pending_run: Bit,
-        /// It is taken at the next RST; low: at the RST that ends the pattern.
+        /// High: the command is taken at the next RST; low: at the RST that ends the pattern.
         pub pending_now: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// Whether a pattern runs.
+        /// State: a pattern runs or not.
         pub state: U(1) as States(STATES) = 0,
         /// Address of the unit time that runs.
         pub address: U(c.width) as Hex = 0,
@@ -62,23 +62,23 @@ signals! { for AddressSequencer as c;
     pub struct Net {
         /// The unit time that runs is the last of its pattern.
         at_last: Bit,
-        /// That, or no pattern runs.
+        /// The unit time is the last of its pattern, or no pattern runs.
         at_end: Bit,
         /// The waiting command is for the next RST.
         due: Bit,
-        /// That command starts a pattern.
+        /// The waiting command starts a pattern.
         start: Bit,
         /// Address that follows in the pattern that runs.
         following: U(c.width) as Hex,
         /// The waiting command is taken with this tick.
         pub take: Bit,
-        /// A pattern runs in the unit time to come, if this is the tick of RST.
+        /// A pattern runs in the next unit time, if this is the tick of RST.
         go_on: Bit,
-        /// Address of the unit time to come.
+        /// Address of the next unit time.
         pub next_address: U(c.width) as Hex,
         /// The pattern memory reads `next_address`.
         pub read: Bit,
-        /// The unit time to come has no pulses.
+        /// The next unit time has no pulses.
         pub blank: Bit,
     }
 }

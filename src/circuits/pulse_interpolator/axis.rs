@@ -14,25 +14,25 @@ use super::{PatternMemory, PulseGenerator, SyncStage, Variant};
 use super::{pattern_memory, pulse_generator, sync_stage};
 use crate::hdl::prelude::*;
 
-/// One axis, of the widths of its memory.
+/// One axis, with the widths of its memory.
 #[derive(Debug, Clone)]
 pub struct Axis {
     /// Pattern memory 10.
     pub memory: PatternMemory,
-    /// What RST clears.
+    /// Registers that RST clears.
     pub variant: Variant,
 }
 
 signals! { for Axis as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Last tick of the unit time.
         pub unit_rst: Bit,
-        /// Reads the word at `address` for the unit time to come.
+        /// Reads the word at `address` for the next unit time.
         pub read: Bit,
-        /// The unit time to come has no pulses.
+        /// The next unit time has no pulses.
         pub blank: Bit,
-        /// Address of the unit time to come.
+        /// Address of the next unit time.
         pub address: U(c.memory.address) as Hex,
         /// Writes the words of all axes.
         pub port: WritePort(&c.memory) as Flat,
@@ -49,7 +49,7 @@ signals! { for Axis as c;
         /// Sync stage 40.
         pub sync: Part<SyncStage>(SyncStage),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// Step pulses; a step is a rising edge.
         pub step: Bit,
@@ -108,8 +108,8 @@ impl Specified for Axis {
             })
     }
 
-    /// A word is read or blanked at RST only, as the address sequencer does it; what stands on
-    /// the write port without a write does not matter, nor which other axis is written to.
+    /// A word is read or blanked at RST only, as the address sequencer does it; the write port's
+    /// words without a write do not matter, nor does the number of another axis.
     fn applies(&self, i: &In<Value>) -> bool {
         let written = i.port.write && i.port.write_axis < 2;
         let moves = i.read || i.blank;

@@ -13,9 +13,9 @@
 //!                       └───────────────────────┘
 //! ```
 //!
-//! An arc turns the first two axes around a centre, from the angle it begins at on, by the same angle
-//! in every unit time. The amounts are the differences of rounded points: they add up to the way from
-//! the first rounded point to the last, and no rounding is lost or doubled.
+//! An arc turns the first two axes around a centre, from its start angle on, by the same angle in
+//! every unit time. The amounts are the differences of rounded points: they add up to the distance
+//! from the first rounded point to the last, and no rounding is lost or doubled.
 
 use super::motor_controller::{MotorController, Move};
 use crate::circuits::blocks::Cordic;
@@ -33,17 +33,17 @@ const OFFER: u64 = 2;
 /// Circular interpolator in front of a motor controller of 2 axes or more.
 #[derive(Debug, Clone)]
 pub struct CircularInterpolator {
-    /// What it gives its moves to.
+    /// Motor controller that takes the moves.
     pub controller: MotorController,
     /// H: width of an angle, in units of 2^−H turn.
     pub angle: usize,
 }
 
 impl CircularInterpolator {
-    /// The CORDIC that it wants.
+    /// Its CORDIC.
     pub const fn cordic(&self) -> Cordic {
         Cordic {
-            // A sign, and room for what a rounded point is beyond its radius.
+            // A sign, and room for the excess of a rounded point over its radius.
             radius: self.radius() + 2,
             angle: self.angle,
         }
@@ -54,8 +54,8 @@ impl CircularInterpolator {
         self.controller.widths.distance + GUARD
     }
 
-    /// Ticks from an order to the first move, and from one to the next where the controller takes
-    /// them at once.
+    /// Ticks from an order to the first move, and from one to the next if the controller takes
+    /// them immediately.
     pub const fn latency(&self) -> [u64; 2] {
         let point = 1 + self.cordic().latency();
         [2 * point + 1, point + 1]
@@ -69,20 +69,21 @@ signals! { for CircularInterpolator as c;
         pub circular: Bit,
         /// Its radius divided by the gain of the CORDIC, in units of 2^−G step.
         pub radius: U(c.radius()),
-        /// Where it begins, in units of 2^−H turn.
+        /// Start angle, in units of 2^−H turn.
         pub angle: U(c.angle),
-        /// By what it turns in a unit time, likewise; above half a turn it is a turn backwards.
+        /// Rotation in a unit time, in units of 2^−H turn; above half a turn it is a turn
+        /// backwards.
         pub turn: U(c.angle),
     }
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The move that is given; with 0 unit times it is dropped.
         pub order: Move(&c.controller) as Flat,
-        /// The same as an arc.
+        /// Parameters of the move as an arc.
         pub arc: ArcMove(c) as Flat,
         /// A move waits in the controller.
         pub pending: Bit,
-        /// The point of the CORDIC stands.
+        /// The point of the CORDIC is valid.
         pub done: Bit,
         /// Its first coordinate, in units of 2^−G step.
         pub along: I(c.radius() + 2),
@@ -91,11 +92,11 @@ signals! { for CircularInterpolator as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// What it does.
+        /// State of the sequence.
         state: U(2) as States(STATES) = 0,
         /// The point is the one where the arc begins.
         first: Bit = 0,
-        /// Unit times that are yet to be given.
+        /// Remaining unit times.
         left: U(c.controller.widths.units) = 0,
         /// T of the arc, in ticks.
         held_period: U(c.controller.widths.period) = 0,
@@ -103,7 +104,7 @@ signals! { for CircularInterpolator as c;
         pub wide_radius: I(c.radius() + 2) = 0,
         /// The angle of the point.
         pub place: U(c.angle) = 0,
-        /// What is added to it in a unit time.
+        /// Rotation in a unit time.
         held_turn: U(c.angle) = 0,
         /// The rounded point before, in steps.
         last_along: I(c.controller.widths.distance + 1) = 0,
@@ -122,19 +123,19 @@ signals! { for CircularInterpolator as c;
         given: Bit,
         /// The point arrives.
         arrives: Bit,
-        /// It is kept, for the way to the next.
+        /// The point is kept, for the difference to the next.
         kept: Bit,
-        /// The CORDIC goes on to the next.
+        /// Starts the CORDIC for the next point.
         again: Bit,
         /// The first coordinate and half a step, in whole steps.
         raised_along: I(c.radius() + 2),
-        /// The second likewise.
+        /// The second coordinate and half a step, in whole steps.
         raised_across: I(c.radius() + 2),
         /// The point in whole steps, a half upwards.
         rounded_along: I(c.controller.widths.distance + 1),
         /// Its second coordinate.
         rounded_across: I(c.controller.widths.distance + 1),
-        /// What the controller is given.
+        /// Move for the controller.
         pub next_order: Move(&c.controller),
     }
 }

@@ -11,11 +11,11 @@
 //! ```
 //!
 //! One command waits until the address sequencer takes it. A command is accepted in a tick in
-//! which the port is ready; one with `now` is always accepted and replaces the one that waits. It
-//! can be taken from the next tick on: a command given in the tick of RST is for the RST after.
+//! which the port is ready; one with `now` is always accepted and replaces the one that waits. A
+//! command can be taken from the next tick on: one given in the tick of RST is for the RST after.
 //!
 //! Departures: the text says only that the read address is switched by command. With power-on
-//! contents the port starts a pattern by itself: the free-running operation of ¶0032.
+//! contents the port starts a pattern without a command: the free-running operation of ¶0032.
 
 use super::Pattern;
 use crate::hdl::prelude::*;
@@ -39,7 +39,7 @@ impl CommandPort {
 }
 
 signals! { for CommandPort as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// A command is given.
         pub valid: Bit,
@@ -68,9 +68,9 @@ signals! { for CommandPort as c;
         pub pending_last: U(c.address) as Hex = c.pattern().last,
         /// Its pattern starts again after its last word.
         pub pending_cyclic: Bit = c.pattern().cyclic,
-        /// It starts a pattern.
+        /// The command starts a pattern.
         pub pending_run: Bit = c.free_running.is_some(),
-        /// It does not wait for the end of a pattern.
+        /// The command does not wait for the end of a pattern.
         pub pending_now: Bit = 0,
         /// Its unit time in ticks.
         pub pending_period: U(c.period) = c.pattern().period,
@@ -142,7 +142,7 @@ impl Circuit for CommandPort {
     }
 }
 
-/// Whether the command that waits is the one of these words and bits.
+/// High if the waiting command has these words and bits.
 fn waits(q: &Reg<Seen>, words: [U; 3], bits: [Bit; 3]) -> Bit {
     let [base, last, period] = words;
     let [cyclic, run, now] = bits;

@@ -1,5 +1,5 @@
-//! The conventional device of Fig. 5 (¶0002–0005), for comparison: a motor controller that computes,
-//! and pulse generators that make the pulses it asks for.
+//! The conventional device of Fig. 5 (¶0002–0005), for comparison: a motor controller that
+//! computes, and pulse generators that make its pulses.
 //!
 //! ```text
 //!                    ┌──────────────┐
@@ -9,8 +9,8 @@
 //!                    └──────────────┘
 //! ```
 //!
-//! While a unit time runs, the next is computed. One that is not prepared in time comes a whole unit
-//! time later; the axes stand until then.
+//! While a unit time runs, the next is computed. One that is not ready in time comes a whole unit
+//! time later; the axes stop until then.
 
 use super::circular_interpolator::{self, ArcMove, CircularInterpolator};
 use super::motor_controller::{self, ConventionalWidths, Move};
@@ -22,13 +22,13 @@ use crate::hdl::prelude::*;
 /// Conventional device of 1 to 8 axes.
 #[derive(Debug, Clone)]
 pub struct Conventional {
-    /// How many axes.
+    /// Number of axes.
     pub axes: usize,
     /// Its widths.
     pub widths: ConventionalWidths,
     /// Unit time at power-on, in ticks.
     pub period: u64,
-    /// Whether it takes arcs of its first two axes too.
+    /// True if it takes arcs of its first two axes too.
     pub arcs: bool,
 }
 
@@ -41,7 +41,7 @@ impl Conventional {
         }
     }
 
-    /// What makes moves of an arc, where it takes arcs.
+    /// Circuit that makes the moves of an arc, where arcs are included.
     pub const fn circular(&self) -> CircularInterpolator {
         CircularInterpolator {
             controller: self.controller(),
@@ -55,11 +55,11 @@ impl Conventional {
 const ANGLE: usize = 32;
 
 signals! { for Conventional as c;
-    /// Ports in: the computer 7.
+    /// Input ports: the computer 7.
     pub struct In {
         /// The move that is given.
         pub order: Move(&c.controller()) as Flat,
-        /// The same as an arc.
+        /// Parameters of the move as an arc.
         pub arcs: [ArcMove(&c.circular()); usize::from(c.arcs)] as Elements(&["arc"]),
     }
     /// The circuits inside.
@@ -87,7 +87,7 @@ signals! { for Conventional as c;
             pulses: c.widths.distance + 1,
         }); c.axes] as Elements(&AXIS_NAMES),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// Step pulses; a step is a rising edge.
         pub step: [Bit; c.axes] as Elements(group::STEP),
@@ -182,8 +182,8 @@ mod tests {
     /// A move with its unit time.
     type Given<'a> = (&'a [i64], u64, u64);
 
-    /// Plays moves one behind the other; calls with the position and the pulses of each axis at the
-    /// end of every unit that is played, and gives how many came late.
+    /// Plays moves in sequence; calls `see` with the position and the pulses of each axis at the
+    /// end of every unit, and returns how many came late.
     fn play(
         circuit: &Conventional,
         moves: &[Given<'_>],
@@ -308,7 +308,7 @@ mod tests {
             let least = controller.controller().least_period();
             assert_eq!(least, 3 + 54 * axes as u64);
             let delta = vec![3; axes];
-            // One move of three units, and three of one unit.
+            // A single move of three units, and three moves of one unit.
             let one = |period| [(&delta[..], 3, period)];
             let three = |period| [(&delta[..], 1, period); 3];
             holds(axes, &one(least - 1), 0);

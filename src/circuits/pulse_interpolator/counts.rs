@@ -8,7 +8,7 @@ use std::ops::RangeInclusive;
 
 /// Pulses (rising edges) in a unit time of `period` ticks: `floor((floor((T-1)/n)+1)/2)`.
 ///
-/// That is (T-1)/2n rounded to the nearest integer, halves up.
+/// The result is (T-1)/2n rounded to the nearest integer, halves up.
 #[must_use]
 pub fn pulses(half_period: u32, period: u32) -> u32 {
     let toggles = period
@@ -18,8 +18,8 @@ pub fn pulses(half_period: u32, period: u32) -> u32 {
     toggles.div_ceil(2)
 }
 
-/// Whether any half-period gives exactly `pulses` in `period` ticks:
-/// `floor((T-1)/(2Y-1)) > floor((T-1)/(2Y+1))`, and always for no pulses at all.
+/// Returns true if some half-period gives exactly `pulses` in `period` ticks: `floor((T-1)/(2Y-1))
+/// > floor((T-1)/(2Y+1))`, and always for no pulses at all.
 #[must_use]
 pub fn attainable(pulses: u32, period: u32) -> bool {
     half_periods(pulses, period).is_some()
@@ -27,7 +27,8 @@ pub fn attainable(pulses: u32, period: u32) -> bool {
 
 /// The half-periods that give exactly `pulses` in `period` ticks; `None` where none does.
 ///
-/// For no pulses that is every half-period from T up (and 0, which stands outside the range).
+/// For no pulses the range is every half-period from T up; 0, which also gives none, is outside
+/// it.
 #[must_use]
 pub fn half_periods(pulses: u32, period: u32) -> Option<RangeInclusive<u32>> {
     if pulses == 0 {
@@ -44,14 +45,15 @@ pub fn half_periods(pulses: u32, period: u32) -> Option<RangeInclusive<u32>> {
 /// The half-period of paragraphs 0021 to 0023: T shared out evenly and lengthened where a fraction
 /// is left, `ceil(T/(2Y))`. `None` for no pulses.
 ///
-/// Whether it gives `pulses` is another matter: see [`recipe_is_exact`].
+/// The result does not always give `pulses`: see [`recipe_is_exact`].
 #[must_use]
 pub fn recipe(pulses: u32, period: u32) -> Option<u32> {
     let share = u64::from(period).div_ceil((2 * u64::from(pulses)).max(1));
     (pulses > 0).then_some(share as u32)
 }
 
-/// `(2Y-1)² < T`: then the [`recipe`] gives exactly `pulses`, the last of which falls exactly at T.
+/// Returns true if `(2Y-1)² < T`: then the [`recipe`] gives exactly `pulses`, the last of which
+/// falls exactly at T.
 ///
 /// Beyond that it still does where 2Y happens to divide T, and else may give fewer.
 #[must_use]
@@ -71,7 +73,7 @@ pub fn attainable_counts(period: u32) -> impl Iterator<Item = u32> {
     })
 }
 
-/// How many different counts, 0 among them, `period` ticks can hold: about 1.4·√T.
+/// Number of different counts, 0 among them, that `period` ticks can hold: about 1.4·√T.
 #[must_use]
 pub fn attainable_count(period: u32) -> usize {
     1 + attainable_counts(period).count()
@@ -81,7 +83,8 @@ pub fn attainable_count(period: u32) -> usize {
 pub(crate) mod tests {
     use super::*;
 
-    /// One unit time, tick by tick: each pulse's rise and fall. Shares nothing with the law above.
+    /// Plays one unit time, tick by tick: rise and fall of each pulse. Independent of the law
+    /// above.
     pub(crate) fn play(half_period: u32, period: u32) -> Vec<(u32, u32)> {
         let (mut counter, mut level, mut edges) = (0, false, Vec::new());
         for tick in 1..=period {

@@ -9,7 +9,8 @@
 //!                  └───────┘
 //! ```
 //!
-//! Without a control computer (all ports in low) it plays the free-running pattern, if it has one.
+//! Without a control computer (all input ports low) it plays the free-running pattern, if there is
+//! one.
 
 use super::pattern_memory::{Contents, WritePort};
 use super::{AXES_MAX, AXIS_NAMES, AddressSequencer, Axis, CommandPort, Pattern, PatternMemory};
@@ -30,17 +31,17 @@ pub(super) const DIR: &[&str] = &[
 /// 1 to 8 axes.
 #[derive(Debug, Clone)]
 pub struct Group {
-    /// How many axes.
+    /// Number of axes.
     pub axes: usize,
     /// Its widths.
     pub widths: Widths,
     /// Unit time at power-on, in ticks.
     pub period: u64,
-    /// The pattern that it plays by itself.
+    /// Pattern that it plays without a command from power-on on.
     pub free_running: Option<Pattern>,
-    /// What RST clears.
+    /// Registers that RST clears.
     pub variant: Variant,
-    /// What the pattern memories of the axes hold at power-on; "no pulse" in those of further axes.
+    /// Contents of the axes' pattern memories at power-on; "no pulse" in those of further axes.
     pub memories: Vec<Contents>,
 }
 
@@ -58,7 +59,8 @@ impl Group {
         }
     }
 
-    /// A group that plays `pattern` of its memories by itself (¶0032); fill `memories` before use.
+    /// Creates a group that plays `pattern` of its memories without a command (¶0032); fill
+    /// `memories` before use.
     pub fn free_running(axes: usize, widths: Widths, variant: Variant, pattern: Pattern) -> Self {
         Group {
             free_running: Some(pattern),
@@ -85,7 +87,7 @@ impl Group {
 }
 
 signals! { for Group as c;
-    /// Ports in: the control computer 2.
+    /// Input ports: the control computer 2.
     pub struct In {
         /// A command is given; see [`command_port::In`].
         pub command: Bit,
@@ -95,15 +97,17 @@ signals! { for Group as c;
         pub last: U(c.widths.address) as Hex,
         /// Its pattern starts again after its last word.
         pub cyclic: Bit,
-        /// It starts a pattern; low: it stops the one that runs.
+        /// High: starts a pattern; low: stops the running one.
         pub run: Bit,
-        /// It is taken at the next RST; low: at the RST that ends the pattern that runs.
+        /// High: the command is taken at the next RST; low: at the RST that ends the running
+        /// pattern.
         pub now: Bit,
         /// Unit time in ticks: of the command, or written by `write_period`.
         pub period: U(c.widths.period),
         /// Rewrites the unit time, in force from the next RST on.
         pub write_period: Bit,
-        /// The unit time ends in this tick, whatever T is: for a group that another counter leads.
+        /// Ends the unit time in this tick, whatever T is: for a group whose timing another
+        /// counter sets.
         pub unit_end: Bit,
         /// Writes the words of all axes.
         pub port: WritePort(&c.widths) as Flat,
@@ -128,7 +132,7 @@ signals! { for Group as c;
         /// The axes.
         pub axes: [Part<Axis>(c.axis(k)); k in c.axes] as Elements(&AXIS_NAMES),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// Step pulses; a step is a rising edge.
         pub step: [Bit; c.axes] as Elements(STEP),
@@ -158,7 +162,7 @@ impl Circuit for Group {
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
         let counter = p.counter.settle(enable_counter::In {
-            // A T of 0 ends the unit time at once.
+            // A T of 0 ends the unit time immediately.
             period: i.unit_end.mux(0, p.unit_time.q.active),
         });
         let unit_rst = counter.w.enable;

@@ -10,8 +10,8 @@
 //!
 //! Departures: the text does not say when a second group begins. Here a command that an idle group
 //! accepts ends that group's unit time in the next tick, so its pattern begins two ticks after the
-//! command. Groups that get commands in the same tick start together; one that gets its command later
-//! starts later. A group that plays goes on to its own RST.
+//! command. Groups that get commands in the same tick start together; one that gets its command
+//! later starts later. A group that plays continues to its own RST.
 
 use super::group::{self, In as Control, Net as Lines};
 use super::pattern_memory::Contents;
@@ -50,7 +50,7 @@ impl Groups {
 }
 
 signals! { for Groups as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The control computer 2 to each group.
         pub control: [Control(&c.group(k)); k in 2] as Elements(&["for_first", "for_second"]),
@@ -65,7 +65,7 @@ signals! { for Groups as c;
         /// The groups.
         pub groups: [Part<Group>(c.group(k)); k in 2] as Elements(&GROUPS),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// Each group's.
         pub lines: [Lines(&c.group(k)); k in 2] as Elements(&["of_first", "of_second"]),
@@ -82,7 +82,8 @@ impl Circuit for Groups {
             unit_end: i.control[k].unit_end | q.starting[k],
             ..i.control[k].clone()
         });
-        // Where no command waits and none runs, none is taken in this tick: the group is idle in the next.
+        // If no command waits and no pattern runs, none is taken in this tick: the group is idle
+        // in the next.
         let accepts = |k: usize| groups[k].w.ready & !groups[k].w.busy;
         let next = Reg {
             starting: (0..2).map(|k| i.control[k].command & accepts(k)).collect(),
@@ -119,7 +120,7 @@ mod tests {
         let mut found = [(None, Vec::new()), (None, Vec::new())];
         for tick in 0..80 {
             for (k, found) in found.iter_mut().enumerate() {
-                // One that is refused, and one while the first plays, must not end a unit time.
+                // A refused command, and one while the first plays, must not end a unit time.
                 let given = [0, 1, 15].map(|later| commands[k] + later);
                 let given = given.contains(&tick);
                 simulator.set(|i| i.control[k].command, given).unwrap();

@@ -66,7 +66,7 @@ pub const AXES_MAX: usize = 8;
 /// Names of the axes, in the order of a group.
 pub const AXIS_NAMES: [&str; AXES_MAX] = ["x", "y", "z", "a", "b", "c", "u", "v"];
 
-/// What RST clears.
+/// Registers that RST clears.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Variant {
     /// The reference-clock counter 201, the toggle of the comparator 202 and the flip-flop 40.
@@ -76,7 +76,7 @@ pub enum Variant {
     Literal,
 }
 
-/// A pattern in the memory: where it stands, how it ends, and its unit time.
+/// A pattern in the memory: its addresses, its end, and its unit time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Pattern {
     /// Address of its first word.

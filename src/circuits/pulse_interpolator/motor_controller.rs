@@ -13,19 +13,19 @@
 //!                       └──────────────────┘
 //! ```
 //!
-//! A move is a straight line of U unit times. For each axis, one behind the other, a divider makes
+//! A move is a straight line of U unit times. For each axis in turn, a divider computes
 //!
 //! ```text
 //! amount, rest <= (|delta| + rest) / U, remainder     rest = U/2 at the start of a move
 //! half_period   = T / (2 · amount), at most the greatest word
 //! ```
 //!
-//! so after u units an axis has gone |delta|·u/U, rounded, and ends exactly. What it makes for a unit
-//! stands until the RST that begins it.
+//! so after u units an axis has gone |delta|·u/U, rounded, and ends exactly. The results for a
+//! unit are held until the RST that begins it.
 //!
-//! The text does not say how the controller computes. This is the cheapest that makes a line. Arcs come
-//! to it from a [circular interpolator](super::circular_interpolator), other curves as short lines, whose
-//! points the computer 7 computes.
+//! The text does not say how the controller computes. This is the cheapest way to make a line.
+//! Arcs come from a [circular interpolator](super::circular_interpolator), other curves as short
+//! lines, whose points the computer 7 computes.
 
 use super::{AXES_MAX, AXIS_NAMES};
 use crate::circuits::blocks::MulDiv;
@@ -74,7 +74,7 @@ impl ConventionalWidths {
 /// Motor controller 5 of 1 to 8 axes.
 #[derive(Debug, Clone)]
 pub struct MotorController {
-    /// How many axes.
+    /// Number of axes.
     pub axes: usize,
     /// Its widths.
     pub widths: ConventionalWidths,
@@ -108,11 +108,11 @@ signals! { for MotorController as c;
         /// Its unit time T in ticks.
         pub period: U(c.widths.period),
     }
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The move.
         pub order: Move(c) as Flat,
-        /// The last tick of the unit time: what is prepared is taken.
+        /// The last tick of the unit time: the prepared unit is taken.
         pub unit_rst: Bit,
         /// The divider has a result.
         pub done: Bit,
@@ -125,11 +125,11 @@ signals! { for MotorController as c;
     pub struct Words {
         /// Steps of the move that waits.
         pending_delta: I(c.widths.distance + 1),
-        /// Steps of the move under way, without their sign.
+        /// Steps of the running move, without their sign.
         distance: U(c.widths.distance + 1),
         /// Their sign; high counts down.
         pub down: Bit,
-        /// What the division left, for the next unit.
+        /// Remainder of the division, for the next unit.
         rest: U(c.widths.units),
         /// Steps of the unit that is prepared.
         pub amount: U(c.widths.distance + 1),
@@ -144,15 +144,15 @@ signals! { for MotorController as c;
         pending_units: U(c.widths.units),
         /// Its T.
         pending_period: U(c.widths.period),
-        /// What it does.
+        /// State of the sequence.
         state: U(2) as States(STATES),
         /// The axis that is computed.
         axis: U(3),
-        /// U of the move under way.
+        /// U of the running move.
         length: U(c.widths.units),
         /// Unit times of it that are not prepared yet.
         left: U(c.widths.units),
-        /// T of the move under way, in ticks.
+        /// T of the running move, in ticks.
         pub unit_period: U(c.widths.period),
         /// The divider begins.
         pub start: Bit,
@@ -169,7 +169,7 @@ signals! { for MotorController as c;
         begins: Bit,
         /// A result is taken from the divider.
         divided: Bit,
-        /// That of an axis.
+        /// A result of an axis is taken.
         result: [Bit; c.axes] as Elements(RESULT),
         /// The half-period that the divider gives; the greatest where it is above.
         rounded: U(c.widths.half_period),
@@ -177,11 +177,11 @@ signals! { for MotorController as c;
         pub prepared: Bit,
         /// A unit time without pulses begins, because the next of a move is not prepared yet.
         pub late: Bit,
-        /// What the divider divides, less the addend.
+        /// Dividend, less the addend.
         pub dividend: U(c.widths.divider()),
         /// Added to it.
         pub addend: U(c.widths.divider()),
-        /// What it divides by.
+        /// Divisor.
         pub divisor: U(c.widths.divider()),
     }
 }

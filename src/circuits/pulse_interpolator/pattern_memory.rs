@@ -9,8 +9,8 @@
 //!               └────────────────┘
 //! ```
 //!
-//! Block RAM with a registered output: the address of the unit time to come is applied in the
-//! tick of RST, the word stands at the output from the first tick of that unit time on.
+//! Block RAM with a registered output: the address of the next unit time is applied in the tick of
+//! RST, the word is at the output from the first tick of that unit time on.
 //!
 //! Departures: the text has an EPROM without direction. Here each word has a direction bit, a
 //! half-period of 0 is "no pulse", and a write port lets the control computer fill one pattern
@@ -20,7 +20,7 @@
 use super::Widths;
 use crate::hdl::prelude::*;
 
-/// What the memory of an axis holds at power-on.
+/// Contents of an axis's memory at power-on.
 #[derive(Debug, Clone)]
 pub struct Contents {
     /// Half-periods, one word per unit time.
@@ -30,7 +30,7 @@ pub struct Contents {
 }
 
 impl Contents {
-    /// All words "no pulse", half-periods and addresses of so many bits.
+    /// Creates contents with all words "no pulse", for half-periods and addresses of these widths.
     pub fn new(half_period: usize, address: usize) -> Self {
         Contents {
             half_periods: Image::new(address, half_period),
@@ -39,7 +39,7 @@ impl Contents {
     }
 }
 
-/// The same words in an image of other widths; as it is where a word would be lost.
+/// Returns the words in an image of other widths; the image unchanged if a word would be lost.
 fn fitted(image: &Image, address: usize, width: usize) -> Image {
     if (image.address(), image.width()) == (address, width) {
         return image.clone();
@@ -62,13 +62,13 @@ pub struct PatternMemory {
     pub address: usize,
     /// The number of this axis, 0 to 7.
     pub axis: u64,
-    /// What it holds at power-on.
+    /// Contents at power-on.
     pub contents: Contents,
 }
 
 impl PatternMemory {
-    /// The memory of axis number `axis`, all words "no pulse", half-periods and addresses of so
-    /// many bits.
+    /// Creates the memory of axis number `axis` with all words "no pulse", for half-periods and
+    /// addresses of these widths.
     pub fn new(half_period: usize, address: usize, axis: u64) -> Self {
         PatternMemory {
             half_period,
@@ -78,7 +78,7 @@ impl PatternMemory {
         }
     }
 
-    /// What it holds at power-on, in its present widths.
+    /// Returns the contents at power-on, in the present widths.
     fn contents(&self) -> Contents {
         let Contents {
             half_periods,
@@ -108,7 +108,7 @@ signals! { for (PatternMemory, Widths) as c;
 }
 
 impl WritePort<Value> {
-    /// Nothing stands on it.
+    /// Returns true if all its signals are low.
     pub(super) fn is_quiet(&self) -> bool {
         let words = [self.write_axis, self.write_address, self.write_half_period];
         words == [0; 3] && !self.write_direction && !self.write
@@ -116,13 +116,13 @@ impl WritePort<Value> {
 }
 
 signals! { for PatternMemory as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Reads the word at `address` into the output registers.
         pub read: Bit,
         /// Puts "no pulse" into the output registers; the direction stays. `read` has priority.
         pub blank: Bit,
-        /// Address of the unit time to come.
+        /// Address of the next unit time.
         pub address: U(c.address) as Hex,
         /// Writes a word if `write_axis` names this axis.
         pub port: WritePort(c) as Flat,

@@ -24,12 +24,12 @@ use crate::hdl::prelude::*;
 pub struct PulseGenerator {
     /// Width of a half-period in bits.
     pub width: usize,
-    /// What RST clears.
+    /// Registers that RST clears.
     pub variant: Variant,
 }
 
 signals! { for PulseGenerator as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Half-period of the pulse signal in ticks; 0 for no pulse.
         pub half_period: U(c.width),
@@ -116,7 +116,8 @@ impl Circuit for PulseGenerator {
     }
 }
 
-/// Count and toggle so many ticks into a unit time with that half-period, if RST clears them.
+/// Returns count and toggle `elapsed` ticks into a unit time with that half-period, if RST clears
+/// them.
 pub(super) fn expected(half_period: u64, elapsed: u64) -> (u64, bool) {
     match half_period {
         0 => (0, false),

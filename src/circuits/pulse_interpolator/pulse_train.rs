@@ -27,9 +27,9 @@ pub struct PulseTrain {
 }
 
 signals! { for PulseTrain as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// A new train begins with the next tick; what is left of the old one is dropped.
+        /// Starts a new train with the next tick; the rest of the old one is dropped.
         pub load: Bit,
         /// Its half-period in ticks; 0 for no pulse.
         pub half_period: U(c.half_period),

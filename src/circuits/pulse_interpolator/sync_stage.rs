@@ -15,7 +15,7 @@ use crate::hdl::prelude::*;
 pub struct SyncStage;
 
 signals! { for SyncStage as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The pulse signal.
         pub pulse: Bit,

@@ -17,16 +17,16 @@ use crate::hdl::prelude::*;
 pub struct UnitLaw {
     /// Width of half-period and T in bits.
     pub width: usize,
-    /// What RST clears.
+    /// Registers that RST clears.
     pub variant: Variant,
 }
 
 signals! { for UnitLaw as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// Half-period of the unit time to come; sampled in the tick of RST only.
+        /// Half-period of the next unit time; sampled in the tick of RST only.
         pub half_period: U(c.width),
-        /// T of the unit time to come; sampled in the tick of RST only.
+        /// T of the next unit time; sampled in the tick of RST only.
         pub period: U(c.width),
     }
     /// Flip-flops.
@@ -87,7 +87,7 @@ impl Circuit for UnitLaw {
 }
 
 impl UnitLaw {
-    /// The count law alone: what the literal variant breaks with sound data.
+    /// The count law alone, which the literal variant violates with valid data.
     pub fn count_law(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new().always("the pulses of a unit time obey the count law", |now| {
             let (n, period) = (now.q.held_half_period, now.q.held_period.max(1));

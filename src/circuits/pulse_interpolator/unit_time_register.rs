@@ -26,7 +26,7 @@ pub struct UnitTimeRegister {
 }
 
 signals! { for UnitTimeRegister as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Writes `period` into the shadow register.
         pub write: Bit,
@@ -36,19 +36,19 @@ signals! { for UnitTimeRegister as c;
         pub unit_rst: Bit,
         /// With `unit_rst`: a pattern begins.
         pub take: Bit,
-        /// That pattern's unit time in ticks.
+        /// Unit time of that pattern, in ticks.
         pub take_period: U(c.width),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// The unit time to come, in ticks.
+        /// The next unit time, in ticks.
         shadow: U(c.width) = c.period,
         /// The unit time in force, in ticks.
         pub active: U(c.width) = c.period,
     }
     /// Nets.
     pub struct Net {
-        /// What is loaded at RST.
+        /// Unit time to load at RST.
         load: U(c.width),
     }
 }

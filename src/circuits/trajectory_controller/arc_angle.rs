@@ -1,4 +1,4 @@
-//! Arc angle: what part of a turn a length on an arc is.
+//! Arc angle: the angle of a length on an arc, as a fraction of a turn.
 //!
 //! ```text
 //!               ┌───────────┐
@@ -9,9 +9,9 @@
 //!               └───────────┘
 //! ```
 //!
-//! angle = offset / (2πr), as a product by the reciprocal: `curvature` has its leading bit set, so the
-//! product has as many digits as the offset, whatever the radius; then it is moved up to the angle's
-//! unit. What falls off above are whole turns.
+//! angle = offset / (2πr), as a product with the reciprocal: `curvature` has its leading bit set,
+//! so the product has as many digits as the offset, whatever the radius; then it is shifted up to
+//! the angle's unit. Bits that overflow are whole turns.
 
 use super::widths::PointWidths;
 use crate::hdl::prelude::*;
@@ -21,7 +21,7 @@ const STATES: &[&str] = &["idle", "multiply", "shift"];
 const IDLE: u64 = 0;
 const MULTIPLY: u64 = 1;
 const SHIFT: u64 = 2;
-/// Bits behind the offset's last that the product keeps.
+/// Bits of the product below the offset's last.
 pub const EXTRA: usize = 4;
 
 /// Angle from an offset and a curvature.
@@ -41,9 +41,9 @@ impl ArcAngle {
 }
 
 signals! { for ArcAngle as c;
-    /// Ports in. What is given with `start` is taken in that tick and need not be held.
+    /// Input ports. Values given with `start` are taken in that tick and need not be held.
     pub struct In {
-        /// Begins, unless one is under way.
+        /// Starts, unless one is running.
         pub start: Bit,
         /// The length on the arc in guard units.
         pub offset: U(c.widths.point),
@@ -54,21 +54,21 @@ signals! { for ArcAngle as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// What it does.
+        /// State of the sequence.
         state: U(2) as States(STATES) = 0,
-        /// Bits of the curvature, or shifts, that are yet to come.
+        /// Remaining bits of the curvature, or shifts,.
         count: U(6) = 0,
-        /// By how much the product is moved up.
+        /// Shift of the product in bits.
         shifts: U(6) = 0,
-        /// The offset with bits behind it.
+        /// The offset with the extra bits below it.
         factor: U(c.widths.product()) = 0,
-        /// Bits of the curvature that are yet to come.
+        /// Remaining bits of the curvature.
         bits: U(c.widths.curvature) as Hex = 0,
-        /// The product so far, by the weight of the bit to come.
+        /// Partial product, in units of the next bit's weight.
         product: U(c.widths.product()) = 0,
         /// The angle in units of 2^−H turn, from `done` on.
         pub angle: U(c.widths.angle) as Analog = 0,
-        /// The angle stands in this tick.
+        /// The angle is valid in this tick.
         pub done: Bit = 0,
     }
     /// Nets.
@@ -77,7 +77,7 @@ signals! { for ArcAngle as c;
         take: Bit,
         /// The last bit of the curvature, or the last shift.
         last: Bit,
-        /// The product with what the bit adds.
+        /// Product plus the term of this bit.
         total: U(c.widths.product()),
         /// The angle is complete after this tick.
         complete: Bit,

@@ -13,7 +13,7 @@
 //! the length on it, and the coefficient the direction's cosine (equation (1), with the ratio worked
 //! out beforehand); on an arc the base is the centre, and the coefficients are those of the two
 //! radii, on a helix of the rise too; on a spline the coordinates are the powers of the length.
-//! A bit of all coefficients a tick, from the lowest up; nothing is lost before the rounding.
+//! One bit of all coefficients per tick, from the lowest up; nothing is lost before the rounding.
 
 use super::widths::PointWidths;
 use crate::hdl::prelude::*;
@@ -38,7 +38,7 @@ impl AxisRow {
 }
 
 signals! { for AxisRow as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// `data` is word `word` of a segment.
         pub load: Bit,
@@ -54,16 +54,16 @@ signals! { for AxisRow as c;
         pub top: Bit,
         /// The sum is complete.
         pub commit: Bit,
-        /// First coordinate in the segment, with R − P bits behind the guard unit.
+        /// First coordinate in the segment, with R − P bits below the guard unit.
         pub along: I(c.widths.radius),
-        /// Second coordinate likewise.
+        /// Second coordinate, in the same unit.
         pub across: I(c.widths.radius),
-        /// Third coordinate likewise.
+        /// Third coordinate, in the same unit.
         pub third: I(c.widths.radius),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// Where the coordinates are 0.
+        /// Origin of the segment's coordinates.
         base: I(c.widths.point) = 0,
         /// Coefficient of `along`.
         by_along: U(c.widths.coefficient) as Hex = 0,
@@ -71,13 +71,13 @@ signals! { for AxisRow as c;
         by_across: U(c.widths.coefficient) as Hex = 0,
         /// Coefficient of `third`.
         by_third: U(c.widths.coefficient) as Hex = 0,
-        /// Bits of the coefficient of `along` that are yet to come.
+        /// Remaining bits of the coefficient of `along`.
         bits_along: U(c.widths.coefficient) as Hex = 0,
-        /// Bits of that of `across`.
+        /// Remaining bits of the coefficient of `across`.
         bits_across: U(c.widths.coefficient) as Hex = 0,
-        /// Bits of that of `third`.
+        /// Remaining bits of the coefficient of `third`.
         bits_third: U(c.widths.coefficient) as Hex = 0,
-        /// The products so far, by the weight of the bit to come.
+        /// Partial sum of the products, in units of the next bit's weight.
         sum: I(c.widths.sum()) = 0,
         /// The coordinate of the point.
         pub point: I(c.widths.point) as Analog = 0,
@@ -86,9 +86,9 @@ signals! { for AxisRow as c;
     pub struct Net {
         /// `along` where its coefficient has the bit, else 0.
         term_along: I(c.widths.sum()),
-        /// `across` likewise.
+        /// `across` where its coefficient has the bit, else 0.
         term_across: I(c.widths.sum()),
-        /// `third` likewise.
+        /// `third` where its coefficient has the bit, else 0.
         term_third: I(c.widths.sum()),
         /// All terms added.
         addend: I(c.widths.sum()),

@@ -17,24 +17,24 @@ use crate::hdl::prelude::*;
 /// Axis of the trajectory controller.
 #[derive(Debug, Clone)]
 pub struct ControlledAxis {
-    /// Servo control 6, 7 (11); the servo response is the same as the model of it.
+    /// Servo control 6, 7 (11); the servo response equals its model.
     pub servo: Servo,
-    /// What is added to the commands.
+    /// Correction added to the commands.
     pub correction: Correction,
 }
 
 signals! { for ControlledAxis as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The position command is new.
         pub step: Bit,
-        /// The servo response goes to it at once, at rest; beats a step of its tick.
+        /// Sets the servo response to the command, at rest; overrides a step in the same tick.
         pub preset: Bit,
         /// Pc: the position command.
         pub command: I(c.servo.widths.position),
-        /// The reference point stands, and the responses.
+        /// The reference point and the responses are valid.
         pub correct: Bit,
-        /// Pr: the reference point; with the feedback what is fed back.
+        /// Pr: the reference point, or the error feedback.
         pub target: I(c.servo.widths.position),
         /// Encoder, channel A.
         pub a: Bit,
@@ -42,7 +42,7 @@ signals! { for ControlledAxis as c;
         pub b: Bit,
         /// K1 and K2, of response and servo control.
         pub model_gains: ModelGains(&c.servo.widths.model()) as Flat,
-        /// Of the servo control's loops.
+        /// Gains of the servo control's loops.
         pub gains: ServoGains(&c.servo.widths) as Flat,
     }
     /// The blocks inside.
@@ -57,9 +57,9 @@ signals! { for ControlledAxis as c;
         /// Servo control 6, 7 (11).
         pub servo: Part<Servo>(c.servo.clone()),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
-        /// The servo response stands in this tick.
+        /// The servo response is valid in this tick.
         pub answered: Bit,
         /// E: the correction.
         pub deviation: I(c.servo.widths.position) as Analog,
@@ -67,7 +67,7 @@ signals! { for ControlledAxis as c;
         pub corrected: I(c.servo.widths.position) as Analog,
         /// The torque.
         pub torque: I(c.servo.widths.torque) as Analog,
-        /// It is limited.
+        /// High if the torque is limited.
         pub saturated: Bit,
         /// The torque is new in this tick.
         pub driven: Bit,

@@ -25,7 +25,7 @@ use crate::circuits::blocks::{
 };
 use crate::hdl::prelude::*;
 
-/// Width of the number of a profile record: so many bits number those that wait.
+/// Width of a profile record's number in bits: the buffer holds 2^`RECORDS` records.
 const RECORDS: usize = 4;
 
 /// Trajectory controller.
@@ -33,20 +33,20 @@ const RECORDS: usize = 4;
 pub struct TrajectoryController {
     /// Its widths, by name.
     pub widths: Widths,
-    /// How many axes, up to 4.
+    /// Number of axes, up to 4.
     pub axes: usize,
-    /// What is added to the commands.
+    /// Correction added to the commands.
     pub correction: Correction,
-    /// How the models round.
+    /// Rounding of the models.
     pub rounding: Rounding,
-    /// Each period's correction waits for the longest way.
+    /// Delays each correction to the worst-case latency.
     pub waits: bool,
 }
 
 impl TrajectoryController {
-    /// A controller whose commands are corrected so, and whose models round so. Its corrections wait
-    /// for the longest way, over the point of the command and the servo response to it; what is fed
-    /// back takes some of that time.
+    /// Creates a controller with this correction and this rounding of its models. Its corrections
+    /// wait for the worst case of the command's point and of the servo response to it; an error
+    /// feedback takes some of that time.
     #[must_use]
     pub const fn new(
         widths: Widths,
@@ -94,8 +94,8 @@ impl TrajectoryController {
         self.feedback().latency() + 1 + self.model().latency()
     }
 
-    /// Shortest interpolation period in ticks: the next one begins when the torques stand. A longer
-    /// one is never late.
+    /// Shortest interpolation period in ticks: the next one begins when the torques are valid. A
+    /// longer one is never late.
     #[must_use]
     pub const fn least_period(&self) -> u64 {
         self.latency() - 1
@@ -121,8 +121,8 @@ impl TrajectoryController {
         LengthClamp { width, back }
     }
 
-    /// By how much the reference point is behind the length that it is told: a count where two points
-    /// of the path are its direction.
+    /// Distance of the reference point behind the given length: a count where two points of the
+    /// path give its direction.
     const fn back(&self) -> u64 {
         match self.correction {
             Correction::Feedback => 1 << self.widths.guard(),
@@ -156,7 +156,7 @@ impl TrajectoryController {
 }
 
 signals! { for TrajectoryController as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Records of the profile.
         pub record: RecordWrite(&c.widths.data) as Flat,
@@ -177,25 +177,26 @@ signals! { for TrajectoryController as c;
         pub period: U(c.widths.period),
         /// K1 and K2 of the tangential response.
         pub model_gains: ModelGains(&c.widths.model()) as Flat,
-        /// Of the error feedback.
+        /// Gains of the error feedback.
         pub feedback_gains: FeedbackGains(&c.widths.feedback()) as Flat,
-        /// K1 of each axis, of its response and its servo control's model, likewise.
+        /// K1 of each axis, of its response and its servo control's model, in the unit of
+        /// `gain_1`.
         pub axis_gain_1: [U(c.widths.gain); c.axes] as Elements(of_axes!("gain_1")),
-        /// K2, likewise.
+        /// K2 of each axis, in the unit of `gain_2`.
         pub axis_gain_2: [U(c.widths.gain); c.axes] as Elements(of_axes!("gain_2")),
-        /// Of the position controls 27.
+        /// Gains of the position controls 27.
         pub position_gain: [U(c.widths.servo_gain); c.axes] as Elements(of_axes!("position_gain")),
-        /// Of the speed controls 29, proportional.
+        /// Proportional gains of the speed controls 29.
         pub speed_gain: [U(c.widths.servo_gain); c.axes] as Elements(of_axes!("speed_gain")),
-        /// Integral.
+        /// Integral gains of the speed controls 29.
         pub integral_gain: [U(c.widths.servo_gain); c.axes] as Elements(of_axes!("integral_gain")),
-        /// Of the feed-forward 30.
+        /// Gains of the feed-forward 30.
         pub inertia: [U(c.widths.servo_gain); c.axes] as Elements(of_axes!("inertia")),
         /// Largest torques.
         pub limit: [U(c.widths.torque); c.axes] as Elements(of_axes!("limit")),
         /// Position commands come from elsewhere, and not from the axis distribution.
         pub given: Bit,
-        /// These; they stay from one beginning of a period to the next.
+        /// The given commands, constant from one beginning of a period to the next.
         pub given_command: [I(c.widths.point); c.axes] as Elements(of_axes!("given_command")),
         /// Encoders, channel A.
         pub a: [Bit; c.axes] as Elements(of_axes!("a")),
@@ -238,13 +239,13 @@ signals! { for TrajectoryController as c;
         pub reference_point: Part<PathPoint>(c.reference_point()),
         /// All points of a period.
         pub gather: Part<PeriodJoin>(PeriodJoin { wait: c.wait() }),
-        /// What is fed back, where something is.
+        /// Error feedback, if there is one.
         pub feedback: [Part<ErrorFeedback>(c.feedback());
             usize::from(c.correction == Correction::Feedback)] as Elements(&["feedback"]),
         /// The axes.
         pub axes: [Part<ControlledAxis>(c.axis()); c.axes] as Elements(&AXIS_NAMES),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// Torques.
         pub torque: [I(c.widths.torque); c.axes] as Elements(of_axes!("torque")),
@@ -254,11 +255,11 @@ signals! { for TrajectoryController as c;
         pub lost: [Bit; c.axes] as Elements(of_axes!("lost")),
         /// There is a free profile record.
         pub ready: Bit,
-        /// A movement is under way.
+        /// A movement is running.
         pub busy: Bit,
         /// The profile gave a new length in the tick before.
         pub sampled: Bit,
-        /// A period begins with the length that stands.
+        /// A period begins with the present length.
         pub fresh: Bit,
         /// A period began before the one before was over; until the next path.
         pub late: Bit,
@@ -379,7 +380,7 @@ impl Circuit for TrajectoryController {
             placed: distribution.w.done,
             referred: reference_point.w.done,
             answered: match self.correction {
-                // What is fed back is of the motors, not of what they would answer.
+                // The feedback uses the motors' positions, not the predicted responses.
                 Correction::Feedback => distribution.w.done,
                 _ => axes[0].w.answered,
             },

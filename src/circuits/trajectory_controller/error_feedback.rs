@@ -9,11 +9,11 @@
 //!                      └────────────────┘
 //! ```
 //!
-//! e = Pc − motors is what the text calls the error of the servo response (¶0003). The direction t of
-//! the path is the way to the point of the path from that of a count before it, in counts: lengths are
-//! ways along the path, so nothing is divided. Then s = e·t, the tangential error is s·t, the normal
-//! error e − s·t, and the feedback N·(e − s·t) + T·s·t. Two bits of a factor a tick, of all axes at
-//! once, each of the three products rounded down.
+//! e = Pc − motors is what the text calls the error of the servo response (¶0003). The direction t
+//! of the path is the vector to the point of the path from the point a count before it, in counts:
+//! lengths are distances along the path, so no division is needed. Then s = e·t, the tangential
+//! error is s·t, the normal error e − s·t, and the feedback N·(e − s·t) + T·s·t. Two bits of a
+//! factor per tick, all axes at once, each of the three products rounded down.
 
 use super::path_point::of_axes;
 use crate::hdl::prelude::*;
@@ -82,8 +82,8 @@ impl FeedbackWidths {
         self.position + 2
     }
 
-    /// A sum: four times four errors, or a normal and a tangential one, above what a factor has of
-    /// whole bits.
+    /// Width of a sum: four times four errors, or a normal and a tangential one, and the whole
+    /// bits of a factor.
     pub(super) const fn sum(&self) -> usize {
         self.position + self.whole() + 5
     }
@@ -92,9 +92,9 @@ impl FeedbackWidths {
 signals! { for FeedbackWidths as c;
     /// Gains of an error feedback.
     pub struct FeedbackGains {
-        /// T: of the tangential error, in units of 2^−(K/2); constant from `start` to `done`.
+        /// T: gain of the tangential error, in units of 2^−(K/2); constant from `start` to `done`.
         pub tangential_gain: U(c.gain),
-        /// N: of the normal error, likewise.
+        /// N: gain of the normal error, in the same units; constant from `start` to `done`.
         pub normal_gain: U(c.gain),
     }
 }
@@ -106,7 +106,7 @@ signals! { for FeedbackWidths as c;
 pub struct ErrorFeedback {
     /// Its widths.
     pub widths: FeedbackWidths,
-    /// How many axes, 1 to 4.
+    /// Number of axes, 1 to 4.
     pub axes: usize,
 }
 
@@ -119,9 +119,9 @@ impl ErrorFeedback {
 }
 
 signals! { for ErrorFeedback as c;
-    /// Ports in. Points and positions are taken with `start` and need not be held.
+    /// Input ports. Points and positions are taken with `start` and need not be held.
     pub struct In {
-        /// Begins, unless one is under way.
+        /// Starts, unless one is running.
         pub start: Bit,
         /// Pc: the position command.
         pub command: [I(c.widths.position); c.axes] as Elements(of_axes!("command")),
@@ -129,14 +129,14 @@ signals! { for ErrorFeedback as c;
         pub path: [I(c.widths.position); c.axes] as Elements(of_axes!("path")),
         /// The point of the path a count before it.
         pub behind: [I(c.widths.position); c.axes] as Elements(of_axes!("behind")),
-        /// Of the motors in counts.
+        /// Positions of the motors in counts.
         pub position: [I(c.widths.count); c.axes] as Elements(of_axes!("position")),
-        /// Of both directions.
+        /// Gains of both directions.
         pub gains: FeedbackGains(&c.widths) as Flat,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// What it does.
+        /// State of the sequence.
         state: U(2) as States(STATES) = 0,
         /// Pairs of bits that are done.
         pair: U(c.widths.pair()) = 0,
@@ -144,19 +144,20 @@ signals! { for ErrorFeedback as c;
         error: [I(c.widths.error()); c.axes] as Elements(of_axes!("error")),
         /// t: direction of the path, turned on by a pair a tick until it is as it was.
         direction: [U(c.widths.direction()); c.axes] as Elements(of_axes!("direction")),
-        /// The projection so far, by the weight of the pair to come.
+        /// Partial projection, in units of the next pair's weight.
         projection: I(c.widths.sum()) = 0,
-        /// s: the tangential error, as a way along the path.
+        /// s: the tangential error, as a distance along the path.
         along: I(c.widths.error()) as Analog = 0,
-        /// The tangential error, then what is fed back, so far, likewise; it stands from `done` on.
+        /// The tangential error, then the feedback: partial sum, in units of the weight of the next
+        /// pair; complete from `done` on.
         pub sum: [I(c.widths.sum()); c.axes] as Elements(of_axes!("sum")),
         /// The tangential error of each axis.
         tangential: [I(c.widths.error()); c.axes] as Elements(of_axes!("tangential")),
-        /// Bits of T that are yet to come.
+        /// Remaining bits of T.
         tangential_bits: U(2 * c.widths.gain_pairs()) as Hex = 0,
-        /// Bits of N that are yet to come.
+        /// Remaining bits of N.
         normal_bits: U(2 * c.widths.gain_pairs()) as Hex = 0,
-        /// The feedback stands in this tick, until the next start.
+        /// The feedback is valid from this tick on, until the next start.
         pub done: Bit = 0,
     }
     /// Nets.
@@ -171,29 +172,29 @@ signals! { for ErrorFeedback as c;
         off: [I(c.widths.position); c.axes] as Elements(of_axes!("off")),
         /// The normal error of each axis.
         normal: [I(c.widths.error()); c.axes] as Elements(of_axes!("normal")),
-        /// What is multiplied: the error, the way along the path, the normal error.
+        /// Multiplicand: the error, the distance along the path, the normal error.
         word: [I(c.widths.error()); c.axes] as Elements(of_axes!("word")),
-        /// The same as wide as a sum.
+        /// The multiplicand, as wide as a sum.
         wide: [I(c.widths.sum()); c.axes] as Elements(of_axes!("wide")),
         /// Bits of its factor.
         bits: [U(2); c.axes] as Elements(of_axes!("bits")),
-        /// It by the weight of the lower of them.
+        /// The multiplicand by the weight of the lower bit.
         low: [I(c.widths.sum()); c.axes] as Elements(of_axes!("low")),
-        /// By that of the upper, which may be a sign.
+        /// The multiplicand by the weight of the upper bit, which may be a sign.
         high: [I(c.widths.sum()); c.axes] as Elements(of_axes!("high")),
-        /// What the pair adds.
+        /// Term of the pair of bits.
         term: [I(c.widths.sum()); c.axes] as Elements(of_axes!("term")),
         /// The tangential error by the weight of the lower bit of its gain.
         raised: [I(c.widths.sum()); c.axes] as Elements(of_axes!("raised")),
-        /// What the lower bit of that gain adds.
+        /// Term of the lower bit of that gain.
         own_low: [I(c.widths.sum()); c.axes] as Elements(of_axes!("own_low")),
-        /// What the upper adds.
+        /// Term of the upper bit.
         own_high: [I(c.widths.sum()); c.axes] as Elements(of_axes!("own_high")),
         /// A product of each axis begins after this tick.
         begins: Bit,
-        /// The projection with what the pair adds.
+        /// The projection plus the terms of the pairs.
         projected: I(c.widths.sum()),
-        /// The sums of the axes with what their pairs add.
+        /// The sums of the axes plus the terms of their pairs.
         total: [I(c.widths.sum()); c.axes] as Elements(of_axes!("total")),
         /// A start is not taken.
         pub busy: Bit,

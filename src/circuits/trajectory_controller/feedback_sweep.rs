@@ -1,4 +1,4 @@
-//! The error feedback's arithmetic as a law that can be swept: what is fed back of any error, along
+//! The error feedback's arithmetic as a law that can be swept: the feedback for any error, along
 //! any direction that is no longer than 1 in either axis.
 //!
 //! ```text
@@ -8,16 +8,16 @@
 //!                   └────────────────┘
 //! ```
 //!
-//! Errors and ways are told, and made of words that wrap: the motor stands at a place that goes with
-//! the way, and the path begins at the command. The start stands up to the last tick: only its first
-//! is taken.
+//! A case gives errors and directions. The positions that lead to them wrap: the motor's position
+//! is the direction, in counts, and the path begins at the command. The start is high up to the
+//! last tick; only the first tick of it is taken.
 
 use super::path_point::{AXIS_NAMES, of_axes};
 use super::{ErrorFeedback, error_feedback};
 use crate::check::Law;
 use crate::hdl::prelude::*;
 
-/// The law of what is fed back from power-on.
+/// The law of the feedback from power-on.
 #[derive(Debug, Clone)]
 pub struct FeedbackSweep {
     /// The error feedback.
@@ -25,7 +25,7 @@ pub struct FeedbackSweep {
 }
 
 impl FeedbackSweep {
-    /// That of an error feedback.
+    /// Creates the law of an error feedback.
     #[must_use]
     pub const fn new(feedback: ErrorFeedback) -> Self {
         FeedbackSweep { feedback }
@@ -37,7 +37,7 @@ signals! { for FeedbackSweep as c;
     pub struct AxisCase {
         /// Command minus motor.
         pub error: I(c.feedback.widths.position),
-        /// The way of a count of the path.
+        /// Direction: displacement in this axis along a count of the path.
         pub way: I(c.feedback.widths.direction()),
     }
     /// A case.
@@ -61,9 +61,9 @@ signals! { for FeedbackSweep as c;
         /// The error feedback.
         pub feedback: Part<ErrorFeedback>(c.feedback.clone()),
     }
-    /// What is seen of it.
+    /// Observed signals.
     pub struct Net {
-        /// What is fed back.
+        /// The feedback.
         pub sum: [I(c.feedback.widths.sum()); c.feedback.axes] as Elements(of_axes!("sum")),
         /// `done` in the last tick.
         pub done: Bit,

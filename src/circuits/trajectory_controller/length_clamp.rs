@@ -7,10 +7,10 @@
 //!             └──────────────┘
 //! ```
 //!
-//! Departure: the text has no answer where the tangential response overshoots the path's end, as it
-//! does with K2 < 4·K1. There is no path behind it: the reference point stays on the end. The
-//! command's length goes through the same, whatever the profile says. What is taken off a length before
-//! it is held gives the point behind another.
+//! Departure: the text does not say what happens where the tangential response overshoots the
+//! path's end, as it does with K2 < 4·K1. There is no path beyond it: the reference point stays at
+//! the end. The command's length is clamped too, whatever the profile says. With `back`, a length
+//! is clamped after a subtraction, which gives the point behind another.
 
 use crate::hdl::prelude::*;
 
@@ -19,25 +19,25 @@ use crate::hdl::prelude::*;
 pub struct LengthClamp {
     /// Width of a length in bits.
     pub width: usize,
-    /// What is taken off the length.
+    /// Amount subtracted from the length.
     pub back: u64,
 }
 
 signals! { for LengthClamp as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// A length along the path.
         pub length: I(c.width),
-        /// L: where the path ends; not negative.
+        /// L: length of the path; not negative.
         pub path_end: I(c.width),
     }
     /// Nets.
     pub struct Net {
-        /// The length without what is taken off.
+        /// The length minus `back`.
         less: I(c.width + usize::from(c.back > 0)),
-        /// It is behind the end.
+        /// `less` is beyond the end.
         beyond: Bit,
-        /// The same, 0 at least and the end at most.
+        /// `less`, at least 0 and at most `path_end`.
         pub clamped: U(c.width),
     }
 }

@@ -38,29 +38,29 @@ impl LengthPowers {
 }
 
 signals! { for LengthPowers as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// Begins, unless they are under way.
+        /// Starts, unless powers are being computed.
         pub start: Bit,
         /// The length on the spline in guard units, below 2^shift; constant from `start` to `done`.
         pub offset: U(c.widths.point),
-        /// Bits of the spline's length, 1 to P − 1; constant likewise.
+        /// Bits of the spline's length, 1 to P − 1; constant from `start` to `done`.
         pub shift: U(6),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// What it does.
+        /// State of the sequence.
         state: U(2) as States(STATES) = 0,
-        /// Bits of the offset that are yet to come behind this one.
+        /// Remaining bits of the offset after this one.
         count: U(6) = 0,
-        /// Bits of the offset that are yet to come.
+        /// Remaining bits of the offset.
         bits: U(c.widths.point) as Hex = 0,
-        /// What is multiplied by the offset, with R − P bits behind the guard unit: the offset, then
-        /// its square, from `done` on too.
+        /// Multiplicand of the offset, with R − P bits below the guard unit: the offset, then its
+        /// square, also from `done` on.
         pub factor: U(c.widths.radius) as Analog = 0,
-        /// The product so far, by the weight of the bit to come; from `done` on the cube.
+        /// Partial product, in units of the next bit's weight; from `done` on the cube.
         pub product: U(c.widths.radius) as Analog = 0,
-        /// Square and cube stand in this tick.
+        /// Square and cube are valid in this tick.
         pub done: Bit = 0,
     }
     /// Nets.
@@ -69,7 +69,7 @@ signals! { for LengthPowers as c;
         take: Bit,
         /// The bit is the offset's last.
         last: Bit,
-        /// The product with what the bit adds.
+        /// Product plus the term of this bit.
         total: U(c.widths.radius),
         /// The square is complete after this tick.
         squared: Bit,

@@ -1,6 +1,6 @@
 //! The trajectory controller of CN104204977.
 //!
-//! What runs on the control computer is in [`jobs`](crate::jobs::trajectory_controller).
+//! Its program on the control computer is in [`jobs`](crate::jobs::trajectory_controller).
 //! `rtl_notes/trajectory_controller/README.md` is the note of this circuit.
 
 pub mod arc_angle;

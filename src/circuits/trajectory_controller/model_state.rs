@@ -12,7 +12,7 @@
 //!
 //! a = K2·(K1·(u − p) − v), p' = p + v, v' = v + a, all from the values before the step. The first
 //! product keeps its fraction; the acceleration alone is rounded. Magnitudes are scaled and signs
-//! put back, so what is mirrored is answered by what is mirrored.
+//! put back, so a mirrored target gives the mirrored response.
 
 use super::Rounding;
 use crate::hdl::prelude::*;
@@ -33,7 +33,7 @@ pub struct ModelWidths {
 }
 
 impl ModelWidths {
-    /// What its scaler multiplies: a product with its fraction, and a difference of two.
+    /// Width of its scaler's values: a product with its fraction, and a difference of two.
     #[must_use]
     pub const fn product(&self) -> usize {
         self.position + self.gain + 1
@@ -43,9 +43,9 @@ impl ModelWidths {
 signals! { for ModelWidths as c;
     /// Gains of a reference model.
     pub struct ModelGains {
-        /// K1, in units of 2^−(K − 1) a period; constant during a step.
+        /// K1, in units of 2^−(K − 1) per period; constant during a step.
         pub gain_1: U(c.gain),
-        /// K2, likewise.
+        /// K2, in the same unit; constant during a step.
         pub gain_2: U(c.gain),
     }
 }
@@ -55,18 +55,18 @@ signals! { for ModelWidths as c;
 pub struct ModelState {
     /// Its widths.
     pub widths: ModelWidths,
-    /// How the acceleration is rounded.
+    /// Rounding of the acceleration.
     pub rounding: Rounding,
 }
 
 signals! { for ModelState as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// An interpolation period begins; not taken while `busy`.
         pub step: Bit,
-        /// Position at the target, at rest; a step that is under way is given up.
+        /// Sets the position to the target, at rest; a running step is aborted.
         pub preset: Bit,
-        /// u: where it is to go, taken with `step`.
+        /// u: the target position, taken with `step`.
         pub target: I(c.widths.position),
         /// K1 and K2.
         pub gains: ModelGains(&c.widths) as Flat,
@@ -77,32 +77,32 @@ signals! { for ModelState as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// What it does.
+        /// State of the sequence.
         state: U(2) as States(STATES) = 0,
-        /// u − p is negative; then the same of K1(u − p) − v.
+        /// u − p is negative; then: K1(u − p) − v is negative.
         negative: Bit = 0,
         /// p: the model's position.
         pub position: I(c.widths.position) as Analog = 0,
-        /// v: its velocity, in a period.
+        /// v: its velocity, per period.
         pub velocity: I(c.widths.position) as Analog = 0,
-        /// a: its acceleration, in a period squared.
+        /// a: its acceleration, per period squared.
         pub acceleration: I(c.widths.position) as Analog = 0,
-        /// They are new in this tick.
+        /// High in the tick with new values.
         pub fresh: Bit = 0,
     }
     /// Nets.
     pub struct Net {
         /// A step is taken.
         take: Bit,
-        /// The first product is there.
+        /// The first product is ready.
         second: Bit,
-        /// The second product is there.
+        /// The second product is ready.
         complete: Bit,
         /// 20: u − p.
         error: I(c.widths.position),
         /// K1(u − p), with K − 1 bits of fraction.
         demand: I(c.widths.product()),
-        /// v likewise.
+        /// v, with K − 1 bits of fraction.
         motion: I(c.widths.product()),
         /// 22: K1(u − p) − v, with the fraction.
         difference: I(c.widths.product()),
@@ -112,9 +112,9 @@ signals! { for ModelState as c;
         pub value: U(c.widths.product()),
         /// by this gain.
         pub gain: U(c.widths.gain),
-        /// The product with what rounds it.
+        /// Product plus the rounding term.
         raised: U(c.widths.product()),
-        /// The same without its fraction.
+        /// `raised` without its fraction.
         cut: U(c.widths.product()),
         /// |a|.
         amount: I(c.widths.position),

@@ -1,4 +1,4 @@
-//! Path length: qc, how far along the path the command is, for an interpolation period.
+//! Path length: qc, the position of the command along the path, for an interpolation period.
 //!
 //! ```text
 //!             ┌─────────────┐
@@ -24,7 +24,7 @@ pub struct PathLength {
 }
 
 signals! { for PathLength as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// An interpolation period begins.
         pub sample: Bit,
@@ -32,8 +32,8 @@ signals! { for PathLength as c;
         pub present: Bit,
         /// The length.
         pub profile: I(c.width),
-        /// Another path: there is none before its first length. What was begun with the last
-        /// length goes on: segments are written from the next beginning of a period on.
+        /// Another path: there is none before its first length. A period that has begun is
+        /// completed: segments are written from the next beginning of a period on.
         pub restart: Bit,
     }
     /// Flip-flops.
@@ -44,9 +44,9 @@ signals! { for PathLength as c;
         pub waiting: Bit = 1,
         /// A period has begun.
         begun: Bit = 0,
-        /// The length is the first of a path: the tangential response goes there at once.
+        /// The length is the first of a path: the tangential response is set to it.
         pub preset: Bit = 0,
-        /// A period has begun with the length that stands.
+        /// A period has begun with the present length.
         pub fresh: Bit = 0,
         /// A period has begun without a path: commands stay as they are.
         pub held: Bit = 0,

@@ -9,9 +9,9 @@
 //!                      └──────────────────────────────┘
 //! ```
 //!
-//! Axis distribution 3 is this circuit with the length q_c that interpolation and acceleration 1 has
-//! come to; reference point 2 is the same circuit, with the same segments, with the length q_s of the
-//! tangential servo response. It knows nothing of the lengths before.
+//! Axis distribution 3 is this circuit with the length q_c from interpolation and acceleration 1;
+//! reference point 2 is this circuit too, with the same segments, with the length q_s of the
+//! tangential servo response. The point does not depend on earlier lengths.
 
 use super::widths::PointWidths;
 use super::{
@@ -59,8 +59,8 @@ impl PathPoint {
         search.latency() + store.latency() + self.control().latency() + 4
     }
 
-    /// The most of any segment: on the smallest arc, whose angle is shifted most, it is measured and
-    /// turned besides; on the longest spline it is raised.
+    /// Ticks from `start` to `done` in the worst case: the smallest arc, whose angle is shifted
+    /// most, or the longest spline.
     pub const fn latency(&self) -> u64 {
         let widths = self.widths;
         let measure = ArcAngle { widths }.latency() + (widths.angle as u64 - 3);
@@ -90,7 +90,7 @@ impl PathPoint {
 signals! { for PointWidths as c;
     /// Segments of a path, as the control computer writes them.
     pub struct PathWrite {
-        /// Writes where a segment of the path begins.
+        /// Writes the beginning of a segment of the path.
         pub write_begin: Bit,
         /// The segment.
         pub begin_segment: U(c.segment),
@@ -106,9 +106,9 @@ signals! { for PointWidths as c;
 }
 
 signals! { for PathPoint as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// Begins, unless a point is under way.
+        /// Starts, unless a point is being computed.
         pub start: Bit,
         /// The length along the path, 0 up to its end; constant until the search has begun, in the
         /// tick after `start`.
@@ -120,11 +120,11 @@ signals! { for PathPoint as c;
     }
     /// The blocks.
     pub struct Parts {
-        /// Which segment.
+        /// Search of the segment.
         pub search: Part<SegmentSearch>(SegmentSearch { widths: c.widths }),
         /// The segments.
         pub store: Part<SegmentStore>(SegmentStore { widths: c.inner() }),
-        /// One after the other.
+        /// Sequence of the blocks.
         pub sequencer: Part<PointSequencer>(PointSequencer {
             widths: c.inner(),
             radius_word: c.radius_word,
@@ -135,21 +135,21 @@ signals! { for PathPoint as c;
         pub cordic: Part<Cordic>(c.cordic()),
         /// Length to powers.
         pub powers: Part<LengthPowers>(LengthPowers { widths: c.widths }),
-        /// Which bit the axes are at.
+        /// Bit index of the coefficients.
         pub control: Part<CoefficientControl>(c.control()),
         /// The axes.
         pub axes: [Part<AxisRow>(AxisRow { widths: c.inner(), coordinate: k as u64 }); k in c.axes]
             as Elements(&AXIS_NAMES),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// The point.
         pub points: [I(c.widths.point); c.axes] as Elements(of_axes!("point")),
-        /// The segment that it is on.
+        /// Segment of the point.
         pub segment: U(c.widths.segment),
-        /// The point stands in this tick.
+        /// The point is valid in this tick.
         pub done: Bit,
-        /// A point is under way.
+        /// A point is being computed.
         pub busy: Bit,
     }
 }

@@ -9,18 +9,19 @@
 //!                      └─────────────┘
 //! ```
 //!
-//! The commands are corrected at the same tick of every period, whatever its points took: the servo
-//! controls look at their motors then, and what a motor moves between two looks is its speed.
+//! The commands are corrected at the same tick of every period, however long its points took: the
+//! servo controls sample their motors then, and the move of a motor between two samples is its
+//! speed.
 //!
-//! With the first point of a path the servo responses are put there, at rest: the path begins where
-//! the machine stands, and what rounding left of the path before is not corrected in this one.
+//! With the first point of a path the servo responses are set to it, at rest: the path begins
+//! where the machine is, and rounding errors of the path before are not corrected in this one.
 
 use crate::hdl::prelude::*;
 
 /// Join of the reference point and the servo responses.
 ///
 /// `correct` is high `wait` + 2 ticks after `begins`, or later where points take longer; after
-/// `held` too, but at once where nothing is waited for.
+/// `held` too, but in the next tick if `wait` is 0.
 #[derive(Debug, Clone)]
 pub struct PeriodJoin {
     /// Ticks that every period waits, below 1023: those of the longest.
@@ -28,19 +29,20 @@ pub struct PeriodJoin {
 }
 
 signals! { for PeriodJoin as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// A period begins with a length.
         pub begins: Bit,
-        /// A period begins without a path: the corrected commands stay, the servo controls go on.
+        /// A period begins without a path: the corrected commands stay, the servo controls
+        /// continue.
         pub held: Bit,
-        /// The position command stands.
+        /// The position command is valid.
         pub placed: Bit,
-        /// The reference point stands.
+        /// The reference point is valid.
         pub referred: Bit,
-        /// The servo responses stand.
+        /// The servo responses are valid.
         pub answered: Bit,
-        /// The torques stand.
+        /// The torques are valid.
         pub driven: Bit,
         /// Another path: its first point is awaited, and `late` goes.
         pub clear: Bit,
@@ -51,7 +53,7 @@ signals! { for PeriodJoin as c;
         first: Bit = 1,
         /// The servo responses go to the position command.
         pub preset: Bit = 0,
-        /// They take a step towards it.
+        /// The servo responses take a step towards the position command.
         pub step: Bit = 0,
         /// The reference point is awaited.
         refers: Bit = 0,
@@ -61,9 +63,9 @@ signals! { for PeriodJoin as c;
         pending: Bit = 0,
         /// Ticks of the period, up to those that are waited for.
         count: U(10) = 0,
-        /// A period is under way.
+        /// A period is running.
         pub busy: Bit = 0,
-        /// Both stand: the commands are corrected.
+        /// Reference point and servo responses are valid: the commands are corrected.
         pub correct: Bit = 0,
         /// A period began before the one before was over; until the next path.
         pub late: Bit = 0,
@@ -72,7 +74,7 @@ signals! { for PeriodJoin as c;
     pub struct Net {
         /// The period is as old as a correction must be.
         due: Bit,
-        /// Both stand, and it is due.
+        /// Reference point and servo responses are valid, and the correction is due.
         complete: Bit,
         /// A period begins.
         period: Bit,

@@ -43,21 +43,21 @@ pub struct PointSequencer {
 }
 
 signals! { for PointSequencer as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// Begins, unless a point is under way.
+        /// Starts, unless a point is being computed.
         pub start: Bit,
         /// The search has the segment.
         pub found: Bit,
-        /// The segment is there.
+        /// The segment is ready.
         pub loaded: Bit,
-        /// The angle is there.
+        /// The angle is ready.
         pub measured: Bit,
-        /// The point on the arc is there.
+        /// The point on the arc is ready.
         pub turned: Bit,
-        /// The powers of the length are there.
+        /// The powers of the length are ready.
         pub raised: Bit,
-        /// The point is there.
+        /// The point is ready.
         pub projected: Bit,
         /// `data` is word `word` of the segment.
         pub load: Bit,
@@ -65,7 +65,7 @@ signals! { for PointSequencer as c;
         pub word: U(c.widths.word),
         /// Its data.
         pub data: U(c.widths.data) as Hex,
-        /// The length behind the segment's beginning.
+        /// Length from the segment's beginning.
         pub offset: U(c.widths.point),
         /// First coordinate of the point on the arc.
         pub arc_along: I(c.widths.radius),
@@ -78,17 +78,17 @@ signals! { for PointSequencer as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// What it does.
+        /// State of the sequence.
         state: U(3) as States(STATES) = 0,
         /// The segment is an arc or a helix.
         arc: Bit = 0,
         /// The segment has a third coordinate: it is a helix or a spline.
         spatial: Bit = 0,
-        /// Of the angle, or of the powers.
+        /// Shift of the angle, or of the powers.
         pub shift: U(6) = 0,
-        /// Of the arc.
+        /// Curvature of the arc.
         pub curvature: U(c.widths.curvature) as Hex = 0,
-        /// Of the arc, divided by the gain of CORDIC.
+        /// Radius of the arc, divided by the gain of CORDIC.
         pub radius: I(c.widths.radius) = 0,
         /// The search begins.
         pub search: Bit = 0,
@@ -102,7 +102,7 @@ signals! { for PointSequencer as c;
         pub raise: Bit = 0,
         /// The point is projected to the axes.
         pub project: Bit = 0,
-        /// The point stands in this tick.
+        /// The point is valid in this tick.
         pub done: Bit = 0,
     }
     /// Nets.
@@ -111,21 +111,21 @@ signals! { for PointSequencer as c;
         take: Bit,
         /// The search is over.
         searched: Bit,
-        /// The segment is there.
+        /// The segment is ready.
         fetched: Bit,
         /// The word is a segment's first.
         header: Bit,
-        /// The segment is there, an arc or a helix.
+        /// The segment is ready, an arc or a helix.
         on_arc: Bit,
-        /// The segment is there, a spline.
+        /// The segment is ready, a spline.
         on_spline: Bit,
-        /// The segment is there, a line, or the point on the arc is, or the powers are.
+        /// A line, the point on an arc, or the powers are ready.
         placed: Bit,
-        /// The angle is there.
+        /// The angle is ready.
         angled: Bit,
-        /// The point is there.
+        /// The point is ready.
         reached: Bit,
-        /// The length on the segment, with bits behind the guard unit.
+        /// The length on the segment, with the bits below the guard unit.
         ahead: I(c.widths.radius),
         /// First coordinate of the point in the segment.
         pub along: I(c.widths.radius),
@@ -133,7 +133,7 @@ signals! { for PointSequencer as c;
         pub across: I(c.widths.radius),
         /// Third coordinate: the length on a helix, its cube on a spline, else 0.
         pub third: I(c.widths.radius),
-        /// A point is under way.
+        /// A point is being computed.
         pub busy: Bit,
     }
 }

@@ -1,4 +1,5 @@
-//! Reference model 12 (¶0027, equation (2)): what the servo system will answer to a position command.
+//! Reference model 12 (¶0027, equation (2)): predicts the response of the servo system to a
+//! position command.
 //!
 //! ```text
 //!                  ┌─────────────────┐
@@ -8,8 +9,8 @@
 //!                  └─────────────────┘
 //! ```
 //!
-//! The same circuit is the servo response of an axis 51, 52, the tangential servo response 50, and
-//! the model 12 inside a servo control 11: all of them are the same to the bit (¶0030).
+//! This circuit is also the servo response of an axis 51, 52, the tangential servo response 50,
+//! and the model 12 inside a servo control 11: all of them agree to the bit (¶0030).
 
 use super::model_state::{ModelGains, ModelWidths};
 use super::{ModelState, Rounding, model_state};
@@ -21,7 +22,7 @@ use crate::hdl::prelude::*;
 pub struct ReferenceModel {
     /// Its widths.
     pub widths: ModelWidths,
-    /// How the acceleration is rounded.
+    /// Rounding of the acceleration.
     pub rounding: Rounding,
 }
 
@@ -41,13 +42,13 @@ impl ReferenceModel {
 }
 
 signals! { for ReferenceModel as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// An interpolation period begins; not taken while `busy`.
         pub step: Bit,
-        /// Position at the target, at rest; a step that is under way is given up.
+        /// Sets the position to the target, at rest; a running step is aborted.
         pub preset: Bit,
-        /// u: where it is to go, taken with `step`.
+        /// u: the target position, taken with `step`.
         pub target: I(c.widths.position),
         /// K1 and K2.
         pub gains: ModelGains(&c.widths) as Flat,
@@ -59,15 +60,15 @@ signals! { for ReferenceModel as c;
         /// 21, 23.
         pub scaler: Part<Scaler>(c.scaler()),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// p: the model's position.
         pub position: I(c.widths.position) as Analog,
-        /// v: its velocity, in a period.
+        /// v: its velocity, per period.
         pub velocity: I(c.widths.position) as Analog,
-        /// a: its acceleration, in a period squared.
+        /// a: its acceleration, per period squared.
         pub acceleration: I(c.widths.position) as Analog,
-        /// They are new in this tick.
+        /// High in the tick with new values.
         pub fresh: Bit,
         /// A step is not taken.
         pub busy: Bit,

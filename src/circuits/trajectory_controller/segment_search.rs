@@ -9,8 +9,8 @@
 //! ```
 //!
 //! A binary search in the lengths at which the segments begin, from the highest bit of the number
-//! down. It knows nothing of the search before, so the answer is the same whichever way the length
-//! came: "if q_s is less than l1, on P0P1; if it is at least l1 and less than l1 + l2, on P1P2".
+//! down. The result depends on the length alone, not on earlier searches: "if q_s is less than l1,
+//! on P0P1; if it is at least l1 and less than l1 + l2, on P1P2".
 
 use super::widths::PointWidths;
 use crate::hdl::prelude::*;
@@ -38,15 +38,15 @@ impl SegmentSearch {
 }
 
 signals! { for SegmentSearch as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// Begins a search, unless one is under way.
+        /// Starts a search, unless one is running.
         pub start: Bit,
         /// The length along the path; taken with `start`.
         pub length: U(c.widths.point),
         /// The path's last segment; constant during a search.
         pub last: U(c.widths.segment),
-        /// Writes where a segment begins; not during a search.
+        /// Writes the beginning of a segment; not during a search.
         pub write: Bit,
         /// The segment.
         pub write_segment: U(c.widths.segment),
@@ -55,9 +55,9 @@ signals! { for SegmentSearch as c;
     }
     /// Flip-flops and memory.
     pub struct Reg {
-        /// Where the segments begin.
+        /// Lengths at which the segments begin.
         begins: Ram(c.widths.segment, c.widths.point),
-        /// What it does.
+        /// State of the sequence.
         state: U(2) as States(STATES) = 0,
         /// The length that is looked for.
         wanted: U(c.widths.point) = 0,
@@ -65,11 +65,11 @@ signals! { for SegmentSearch as c;
         weight: U(c.widths.segment) as Hex = 0,
         /// The bits that are decided; the segment, from `done` on.
         pub segment: U(c.widths.segment) = 0,
-        /// Where the segment that is tried begins.
+        /// Length at which the tried segment begins.
         tried_begin: U(c.widths.point) = 0,
-        /// How far the length is behind the beginning of the last segment that fitted.
+        /// Length from the beginning of the last segment that fitted.
         pub offset: U(c.widths.point) = 0,
-        /// Segment and offset stand in this tick.
+        /// Segment and offset are valid in this tick.
         pub done: Bit = 0,
     }
     /// Nets.
@@ -78,7 +78,7 @@ signals! { for SegmentSearch as c;
         take: Bit,
         /// The segment that is tried: with the bit.
         tried: U(c.widths.segment),
-        /// The length is at or behind where it begins, and the path has it.
+        /// The length is at or beyond that beginning, and the path has the segment.
         fits: Bit,
         /// The last bit is decided.
         over: Bit,

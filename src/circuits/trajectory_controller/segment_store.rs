@@ -1,4 +1,4 @@
-//! Segment store: the path's segments, and the way one goes to the blocks.
+//! Segment store: holds the path's segments, and sends one of them to the blocks.
 //!
 //! ```text
 //!                           ┌───────────────┐
@@ -39,7 +39,7 @@ impl SegmentStore {
 }
 
 signals! { for SegmentStore as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// Writes a word.
         pub write: Bit,
@@ -49,18 +49,18 @@ signals! { for SegmentStore as c;
         pub write_data: U(c.widths.data) as Hex,
         /// A segment goes to the blocks, unless words are being read.
         pub fetch: Bit,
-        /// Which; constant while it is on its way.
+        /// The segment to fetch; constant while it is being sent.
         pub segment: U(c.widths.segment),
     }
     /// Flip-flops and memory.
     pub struct Reg {
         /// The segments.
         segments: Ram(c.widths.address(), c.widths.data),
-        /// A segment is on its way: its words are read.
+        /// A segment is being sent: its words are read.
         reading: Bit = 0,
         /// The word that is read.
         read_word: U(c.widths.word) = 0,
-        /// A word of a segment stands at `word` and `data`.
+        /// A word of a segment is at `word` and `data`.
         pub load: Bit = 0,
         /// Its number.
         pub word: U(c.widths.word) = 0,
@@ -71,7 +71,7 @@ signals! { for SegmentStore as c;
     }
     /// Nets.
     pub struct Net {
-        /// Where is read.
+        /// Read address.
         read_address: U(c.widths.address()) as Hex,
         /// The last word is read.
         last: Bit,

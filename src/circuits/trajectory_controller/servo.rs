@@ -20,7 +20,7 @@ use crate::hdl::prelude::*;
 pub struct Servo {
     /// Its widths.
     pub widths: ServoWidths,
-    /// How its model rounds.
+    /// Rounding of its model.
     pub rounding: Rounding,
 }
 
@@ -48,11 +48,11 @@ impl Servo {
 }
 
 signals! { for Servo as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The corrected command is new.
         pub step: Bit,
-        /// Between two paths: the model at the target, at rest; the loops begin anew.
+        /// Between two paths: sets the model to the target, at rest, and restarts the loops.
         pub preset: Bit,
         /// Pd: the corrected position command in guard units; constant during a step.
         pub target: I(c.widths.position),
@@ -64,7 +64,7 @@ signals! { for Servo as c;
         pub home: Bit,
         /// K1 and K2.
         pub model_gains: ModelGains(&c.widths.model()) as Flat,
-        /// Of the loops.
+        /// Gains of the loops.
         pub gains: ServoGains(&c.widths) as Flat,
     }
     /// The blocks inside.
@@ -78,11 +78,11 @@ signals! { for Servo as c;
         /// Its products.
         pub scaler: Part<Scaler>(c.scaler()),
     }
-    /// Ports out.
+    /// Output ports.
     pub struct Net {
         /// The torque.
         pub torque: I(c.widths.torque) as Analog,
-        /// It is limited.
+        /// High if the torque is limited.
         pub saturated: Bit,
         /// The torque is new in this tick.
         pub fresh: Bit,

@@ -10,11 +10,12 @@
 //!                         └──────────────────┘
 //! ```
 //!
-//! 26: position error = model position − feedback. 27: P. 28: speed error = model speed + P − speed,
-//! both being ways from step to step: of the model, what it moved in this step, which is its velocity
-//! before it; of the motor, what the feedback moved since the step before. 29: PI. 30: model
-//! acceleration times the inertia. 31: all three added. Departures: the torque is limited; the
-//! integral of 29 stays within the limit, and holds while it would drive the torque farther beyond.
+//! 26: position error = model position − feedback. 27: P. 28: speed error = model speed + P −
+//! speed, both speeds being moves per step: of the model, its move in this step, which is its
+//! velocity before it; of the motor, the move of the feedback since the step before. 29: PI. 30:
+//! model acceleration times the inertia. 31: all three added. Departures: the torque is limited;
+//! the integral of 29 stays within the limit, and holds while it would drive the torque farther
+//! beyond.
 
 use super::model_state::ModelWidths;
 use crate::hdl::prelude::*;
@@ -35,11 +36,11 @@ const INTEGRAL: u64 = 3;
 const INERTIA: u64 = 4;
 const LIMIT: u64 = 5;
 
-/// Bits behind the torque's last that its sum keeps.
+/// Bits of the sum below the torque's last.
 pub const FINE: usize = 4;
 
-/// Bits by which what becomes a torque is shifted up before it is scaled, for gains up to
-/// 2^(LEFT − FINE + 1).
+/// Bits by which a value is shifted up before it is scaled to a torque, for gains up to 2^(LEFT −
+/// FINE + 1).
 pub const LEFT: usize = 6;
 
 /// Widths of a servo control in bits.
@@ -58,13 +59,13 @@ pub struct ServoWidths {
 }
 
 impl ServoWidths {
-    /// Sums of the arithmetic, and what its scaler multiplies.
+    /// Width of the arithmetic's sums, and of its scaler's values.
     #[must_use]
     pub const fn product(&self) -> usize {
         self.position + 5 + LEFT
     }
 
-    /// Those of the reference model.
+    /// Widths of the reference model.
     #[must_use]
     pub const fn model(&self) -> ModelWidths {
         ModelWidths {
@@ -77,13 +78,13 @@ impl ServoWidths {
 signals! { for ServoWidths as c;
     /// Gains of a servo control's loops.
     pub struct ServoGains {
-        /// Of 27: speed for a position error, in units of 2^−(G − 1).
+        /// Gain of 27: speed for a position error, in units of 2^−(G − 1).
         pub position_gain: U(c.gain),
-        /// Of 29, proportional: torque for a speed error, in units of 2^(LEFT − FINE − G + 1).
+        /// Proportional gain of 29: torque for a speed error, in units of 2^(LEFT − FINE − G + 1).
         pub speed_gain: U(c.gain),
-        /// Of 29, integral, likewise, a period.
+        /// Integral gain of 29: per period, in the same units.
         pub integral_gain: U(c.gain),
-        /// Of 30: torque for an acceleration, likewise.
+        /// Gain of 30: torque for an acceleration, in the same units.
         pub inertia: U(c.gain),
         /// Largest torque, below 2^(T − 1).
         pub limit: U(c.torque),
@@ -98,22 +99,22 @@ pub struct ServoArithmetic {
 }
 
 signals! { for ServoArithmetic as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
         /// The model's state is new; not taken while `busy`. All words but the
         /// feedback are constant during a step.
         pub step: Bit,
-        /// Speed and integral to 0, feedback taken over; a step that is under way is given up.
+        /// Sets speed and integral to 0 and takes over the feedback; a running step is aborted.
         pub clear: Bit,
         /// Position of the reference model.
         pub model_position: I(c.widths.position),
-        /// Its velocity, in a period.
+        /// Its velocity, per period.
         pub model_velocity: I(c.widths.position),
-        /// Its acceleration, in a period squared.
+        /// Its acceleration, per period squared.
         pub model_acceleration: I(c.widths.position),
         /// Position of the motor in counts; taken over with `step`.
         pub feedback: I(c.widths.count),
-        /// Of its loops.
+        /// Gains of its loops.
         pub gains: ServoGains(&c.widths) as Flat,
         /// The scaler is done.
         pub done: Bit,
@@ -122,34 +123,34 @@ signals! { for ServoArithmetic as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// What it does.
+        /// State of the sequence.
         state: U(3) as States(STATES) = 0,
-        /// What is being scaled is negative.
+        /// The value being scaled is negative.
         negative: Bit = 0,
         /// The feedback of the last step.
         previous: I(c.widths.count) = 0,
-        /// What it moved in that period.
+        /// Move of the feedback in that period.
         speed: I(c.widths.count) = 0,
         /// 28: the speed error.
         speed_error: I(c.widths.product()) as Analog = 0,
-        /// The parts of 31 so far, with FINE bits behind the torque's last.
+        /// Sum of the parts of 31 so far, with FINE bits below the torque's last.
         sum: I(c.widths.product()) as Analog = 0,
-        /// Integral of 29, likewise.
+        /// Integral of 29, with FINE bits below the torque's last.
         integral: I(c.widths.product()) as Analog = 0,
-        /// What the period would add to the integral.
+        /// Change of the integral by this period.
         increment: I(c.widths.product()) = 0,
         /// The torque.
         pub torque: I(c.widths.torque) as Analog = 0,
-        /// It is limited.
+        /// High if the torque is limited.
         pub saturated: Bit = 0,
-        /// They are new in this tick.
+        /// High in the tick with new values.
         pub fresh: Bit = 0,
     }
     /// Nets.
     pub struct Net {
         /// A step is taken.
         take: Bit,
-        /// A product is there.
+        /// A product is ready.
         product_there: Bit,
         /// The feedback in guard units.
         actual: I(c.widths.product()),
@@ -159,13 +160,13 @@ signals! { for ServoArithmetic as c;
         product: I(c.widths.product()),
         /// The model's acceleration.
         change: I(c.widths.product()),
-        /// What the model moved in this step.
+        /// Move of the model in this step.
         model_way: I(c.widths.product()),
-        /// What the motor moved, in guard units.
+        /// Move of the motor in this step, in guard units.
         motor_way: I(c.widths.product()),
-        /// 28, when the product of 27 is there.
+        /// 28, valid when the product of 27 is ready.
         speed_demand: I(c.widths.product()),
-        /// What is scaled next.
+        /// Next value to scale.
         operand: I(c.widths.product()),
         /// Its magnitude.
         size: U(c.widths.product()),
@@ -179,13 +180,13 @@ signals! { for ServoArithmetic as c;
         highest: I(c.widths.product()),
         /// Least integral.
         lowest: I(c.widths.product()),
-        /// The integral with what the period adds.
+        /// The integral plus the increment.
         grown: I(c.widths.product()),
-        /// The same within the torque's limits.
+        /// `grown` within the torque's limits.
         held: I(c.widths.product()),
         /// 31: the whole torque with the fine bits.
         whole: I(c.widths.product()),
-        /// The same to the nearest, a half upwards.
+        /// `whole` to the nearest, a half upwards.
         wanted: I(c.widths.product()),
         /// Largest torque.
         most: I(c.widths.product()),
@@ -193,11 +194,11 @@ signals! { for ServoArithmetic as c;
         least: I(c.widths.product()),
         /// The torque is above the largest.
         above: Bit,
-        /// It is below the least.
+        /// The torque is below the least.
         below_least: Bit,
         /// The torque within its limits.
         limited: I(c.widths.product()),
-        /// The integral may take what the period adds.
+        /// The integral may take the increment.
         integrates: Bit,
         /// The torque is limited, and the step ends.
         ends: Bit,

@@ -9,21 +9,21 @@
 //!              └───────────────────┘
 //! ```
 //!
-//! E = Pr − Ps, Pd = Pc + E: how far the response would be from the path is added to the command.
+//! E = Pr − Ps, Pd = Pc + E: the deviation of the response from the path is added to the command.
 
 use crate::hdl::prelude::*;
 
-/// What is added to the position commands.
+/// Correction added to the position commands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Correction {
-    /// E = Pr − Ps, worked out in every period (equations (6), (7)).
+    /// E = Pr − Ps, computed in every period (equations (6), (7)).
     #[default]
     Vector,
     /// Nothing.
     None,
-    /// The prior art (¶0004): along the normal, by what is right at constant speed. E = Pr − Pc, with
-    /// Pr on a path whose arcs are so much wider.
+    /// The prior art (¶0004): along the normal, by the amount that is right at constant speed. E =
+    /// Pr − Pc, with Pr on a path whose arcs are wider by that amount.
     Steady,
     /// The prior art (¶0005): the motors' errors along and across the path, each times its gain.
     Feedback,
@@ -47,16 +47,16 @@ impl Correction {
 pub struct VectorCorrection {
     /// Width of a point in bits.
     pub width: usize,
-    /// What is added.
+    /// Kind of correction.
     pub correction: Correction,
 }
 
 signals! { for VectorCorrection as c;
-    /// Ports in.
+    /// Input ports.
     pub struct In {
-        /// All three points stand.
+        /// All three points are valid.
         pub correct: Bit,
-        /// Pr: the reference point; with the feedback what is fed back.
+        /// Pr: the reference point, or the error feedback.
         pub target: I(c.width),
         /// Ps: the servo response.
         pub response: I(c.width),
@@ -69,12 +69,12 @@ signals! { for VectorCorrection as c;
         pub correction: I(c.width) as Analog = 0,
         /// Pd: the corrected position command.
         pub corrected: I(c.width) as Analog = 0,
-        /// They are new in this tick.
+        /// High in the tick with new values.
         pub fresh: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// What is added.
+        /// Correction to add.
         vector: I(c.width),
     }
 }

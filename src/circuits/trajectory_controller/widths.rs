@@ -77,7 +77,7 @@ impl Widths {
         1 << self.segment
     }
 
-    /// Those of the profile's records, in the words of the arc generator, whose format they have.
+    /// Widths of the profile's records, which have the format of the arc generator's.
     #[must_use]
     pub const fn record(&self) -> RecordWidths {
         RecordWidths {
@@ -91,7 +91,7 @@ impl Widths {
         }
     }
 
-    /// Those of the points on the path.
+    /// Widths of the points on the path.
     #[must_use]
     pub const fn point(&self) -> PointWidths {
         PointWidths {
@@ -106,7 +106,7 @@ impl Widths {
         }
     }
 
-    /// Those of the reference models.
+    /// Widths of the reference models.
     #[must_use]
     pub const fn model(&self) -> ModelWidths {
         ModelWidths {
@@ -115,7 +115,7 @@ impl Widths {
         }
     }
 
-    /// Those of the error feedback.
+    /// Widths of the error feedback.
     #[must_use]
     pub const fn feedback(&self) -> FeedbackWidths {
         FeedbackWidths {
@@ -125,7 +125,7 @@ impl Widths {
         }
     }
 
-    /// Those of the servo controls.
+    /// Widths of the servo controls.
     #[must_use]
     pub const fn servo(&self) -> ServoWidths {
         ServoWidths {
@@ -160,7 +160,7 @@ pub struct PointWidths {
 }
 
 impl PointWidths {
-    /// Those of so many axes.
+    /// Returns the widths for this number of axes.
     #[must_use]
     pub const fn of_axes(self, axes: usize) -> Self {
         let word = if axes > 3 { 5 } else { 4 };
@@ -185,7 +185,7 @@ impl PointWidths {
         self.radius + 3
     }
 
-    /// Product of an offset and a curvature: a sum of two offsets with the bits behind them.
+    /// Product of an offset and a curvature: a sum of two offsets with the bits below them.
     #[must_use]
     pub const fn product(&self) -> usize {
         self.point + EXTRA + 1

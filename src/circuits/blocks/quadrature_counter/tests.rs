@@ -8,7 +8,7 @@ use proptest::prelude::*;
 /// Ticks from a level at the pin to the position.
 const LATENCY: usize = 3;
 
-/// The channels of an encoder that stands in that quarter of its period.
+/// Returns the channels of an encoder at that quarter of its period.
 fn channels(quarter: i64) -> (bool, bool) {
     [(false, false), (true, false), (true, true), (false, true)][quarter.rem_euclid(4) as usize]
 }
@@ -17,7 +17,7 @@ fn levels((a, b): (bool, bool), clear: bool) -> In<Value> {
     In { a, b, clear }
 }
 
-/// What stands at the ports out in a tick.
+/// Output ports in a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Out {
     position: i64,
@@ -25,7 +25,7 @@ struct Out {
     illegal: bool,
 }
 
-/// The ports out in every tick.
+/// Returns the output ports in every tick.
 fn run(width: usize, inputs: impl IntoIterator<Item = In<Value>>) -> Vec<Out> {
     let mut simulator = Simulator::new(&QuadratureCounter { width }).unwrap();
     let mut step = |i| {
@@ -127,7 +127,7 @@ fn clear_wins_over_a_count_and_over_an_illegal_step() {
         .into_iter()
         .flat_map(|step| [(step, 7), (step, 8), (step, 9)])
     {
-        // The step stands at the pin from tick 6 on, and is decoded in tick 8.
+        // The step is at the pin from tick 6 on, and is decoded in tick 8.
         let at = |now| if now < 6 { 0 } else { step };
         let out = run(8, (0..14).map(|now| levels(channels(at(now)), now == tick)));
         let counted = tick < 8;

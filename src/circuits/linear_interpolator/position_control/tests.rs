@@ -5,7 +5,7 @@ use super::{In, LoopWidths, PositionControl};
 use crate::hdl::prelude::*;
 use proptest::prelude::*;
 
-/// What a scan loads, and the nets of that tick.
+/// Registers that a scan loads, and the nets of that tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Out {
     deviation: i64,
@@ -18,7 +18,7 @@ fn control(widths: LoopWidths) -> Simulator<PositionControl> {
     Simulator::new(&PositionControl { widths }).unwrap()
 }
 
-/// A scan; what it loads is the same whatever was loaded before.
+/// Runs a scan; its result does not depend on earlier ones.
 fn scanned(
     control: &mut Simulator<PositionControl>,
     command: i64,
@@ -45,7 +45,7 @@ fn scanned(
     }
 }
 
-/// The same from the definition: the quotient by division, halves told from its remainder.
+/// Returns the result by its definition: the quotient by division, halves from its remainder.
 fn expected(widths: LoopWidths, command: i64, feedback: i64, gain: u64, window: u64) -> Out {
     let (f, half_turn) = (widths.fraction, 1i128 << (widths.position - 1));
     let way = i128::from(command) - i128::from(feedback);
