@@ -90,8 +90,7 @@ signals! { for CordicState as c;
         raised: U(c.angle),
         /// The nearest quarter is the first or third: the coordinates change places.
         upright: Bit,
-        /// The nearest quarter is the second or third: `across` changes its sign. `along` does in
-        /// the first and second.
+        /// Second or third quarter: `across` changes its sign. `along` does in the first and second.
         half: Bit,
         /// The nearest quarter.
         quarter: U(c.angle),
