@@ -6,6 +6,11 @@ use crate::hdl::RunError;
 use std::fmt::{self, Display};
 use std::ops::RangeInclusive;
 
+mod pair;
+
+pub use pair::{Pair, PairError};
+pub(crate) use pair::{key_value, value};
+
 /// Clocks that are accepted, in Hz.
 pub const CLOCK_RANGE_HZ: RangeInclusive<u64> = 1..=10_000_000_000;
 

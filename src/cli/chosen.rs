@@ -1,129 +1,176 @@
 //! A circuit of the catalogue that is asked for on the command line.
 
-use super::{Failure, check::entry};
+use super::Failure;
 use clap::Args;
-use motion_rtl::registry::{AnyModel, Entry, Refused, Request};
+use motion_rtl::nearest::nearest;
+use motion_rtl::registry::{AnyModel, Base, CATALOGUE, Entry, Pair, Refused, find};
+use serde::{Deserialize, Serialize};
 use std::fmt;
-use std::str::FromStr;
 
-/// Which circuit, and how it is made.
+/// Changed keys of a circuit.
+#[derive(Debug, Clone, Default, PartialEq, Args, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Changes {
+    /// Gives a key of the circuit a value, `variant=literal` for instance; `list NAME` shows the keys.
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Width in bits of a circuit that has one width.
+    #[arg(long, value_name = "BITS", allow_negative_numbers = true)]
+    width: Vec<String>,
+    /// The former way to give values.
+    #[serde(skip)]
+    #[arg(long, hide = true, num_args = 0.., allow_hyphen_values = true)]
+    with: Option<Vec<String>>,
+}
+
+/// A circuit with changed keys.
 #[derive(Debug, Args)]
 pub struct Chosen {
-    /// The circuit.
+    /// Name of the circuit.
     circuit: String,
-    /// Width of the words, in bits, or of one of them by its name (`position=20`); without it the
-    /// circuit's own widths, as `list` shows them.
-    #[arg(long, value_name = "[NAME=]BITS", allow_negative_numbers = true)]
-    width: Vec<Width>,
-    /// What else the circuit is made with, as `list` tells.
-    #[arg(
-        long,
-        value_name = "NUMBERS",
-        allow_negative_numbers = true,
-        value_delimiter = ','
-    )]
-    with: Vec<u64>,
+    #[command(flatten)]
+    changes: Changes,
 }
 
-/// A width: of all words, or of one by its name.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Width {
-    name: Option<String>,
-    bits: u64,
+/// The circuit of that name.
+pub fn entry(name: &str) -> Result<&'static Entry, Failure> {
+    find(name).ok_or_else(|| {
+        let names = || CATALOGUE.iter().map(|entry| entry.name);
+        let near = nearest(name, names());
+        let near = near.map_or(String::new(), |near| format!("; did you mean {near}?"));
+        Failure::Argument {
+            field: "CIRCUIT",
+            problem: format!("there is no {name}{near}"),
+            allowed: names().collect::<Vec<_>>().join(", "),
+        }
+    })
 }
 
-impl FromStr for Width {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let (name, bits) = match text.split_once('=') {
-            Some((name, bits)) => (Some(name.to_owned()), bits),
-            None => (None, text),
-        };
-        let bits = bits.parse().map_err(|error| format!("{error}"))?;
-        Ok(Width { name, bits })
-    }
-}
-
-/// The width of all words, if one is given, and those of single ones by their names.
-type Widths = (Option<u64>, Vec<(String, u64)>);
-
-/// What is given.
-pub fn widths(given: &[Width]) -> Result<Widths, Failure> {
-    let all: Vec<u64> = given
-        .iter()
-        .filter(|width| width.name.is_none())
-        .map(|width| width.bits)
-        .collect();
-    if all.len() > 1 {
-        return Err(Failure::Argument {
-            field: "--width",
-            problem: format!("is {} and {}", all[0], all[1]),
-            allowed: "one width of all words, and others by their names".into(),
-        });
-    }
-    let named = given
-        .iter()
-        .filter_map(|width| Some((width.name.clone()?, width.bits)));
-    Ok((all.first().copied(), named.collect()))
-}
-
-/// Why a circuit cannot be made so.
-pub fn refused(entry: &Entry, request: &Request, refused: &Refused) -> Failure {
-    let (field, allowed) = match refused {
-        Refused::NoWidths => ("--width", "none".to_owned()),
-        Refused::NoSuchWidth { names, .. } => ("--width", names.join(", ")),
-        Refused::Numbers(_) => ("--with", entry.arguments.to_owned()),
-        Refused::Wrong(_) => ("--width", "widths that go together".to_owned()),
-        Refused::NoProof => ("CIRCUIT", "its blocks".to_owned()),
-    };
-    let (field, allowed) = match (refused, &request.with[..], request.width) {
-        // Numbers that are only a width.
-        (Refused::Numbers(_), [], Some(_)) => ("--width", format!("{allowed}, the width 1 to 64")),
-        _ => (field, allowed),
-    };
-    let problem = match refused {
-        Refused::NoWidths => format!("{} has no widths to choose", entry.name),
-        Refused::Numbers(given) => format!("{} cannot be made with {given:?}", entry.name),
-        other => format!("{}: {other}", entry.name),
-    };
+/// Refuses changed keys of all circuits at once.
+pub fn no_circuit(changes: &Changes, command: &str) -> Failure {
     Failure::Argument {
-        field,
-        problem,
-        allowed,
+        field: "CIRCUIT",
+        problem: format!("none, with{changes}"),
+        allowed: format!("a circuit that has the key, {command} comparator --set comparing=equal"),
+    }
+}
+
+/// Says why a circuit cannot be made, each key on a line.
+pub fn refused(entry: &Entry, refused: Refused) -> Failure {
+    match refused {
+        Refused::Pairs(wrong) => Failure::Pairs(wrong),
+        Refused::Values(problem) => Failure::Argument {
+            field: "--set",
+            problem: format!("{}: {problem}", entry.name),
+            allowed: "values that go together".to_owned(),
+        },
+        Refused::NoProof => Failure::Argument {
+            field: "CIRCUIT",
+            problem: format!("{}: {refused}", entry.name),
+            allowed: "its blocks".to_owned(),
+        },
+    }
+}
+
+impl Changes {
+    /// True if no key is changed.
+    pub fn is_empty(&self) -> bool {
+        self.set.is_empty() && self.width.is_empty() && self.with.is_none()
+    }
+
+    /// The changed keys of a circuit, the one width among them.
+    pub fn pairs(&self, entry: &Entry) -> Result<Vec<Pair>, Failure> {
+        let keys = entry.keys();
+        let instance = keys.first().map(|key| {
+            let value = key.full.as_deref().or(key.small.as_deref());
+            format!("--set {}={}", key.name, value.unwrap_or_default())
+        });
+        let new = instance.unwrap_or_else(|| format!("none: {} has no keys", entry.name));
+        if self.with.is_some() {
+            return Err(Failure::Argument {
+                field: "--with",
+                problem: "takes no numbers".to_owned(),
+                allowed: format!("values by their keys, {new}; see `list {}`", entry.name),
+            });
+        }
+        let mut pairs = Vec::new();
+        if let Some(bits) = self.width.first() {
+            pairs.push(self.one_width(entry, bits)?);
+        }
+        for text in &self.set {
+            pairs.push(text.parse().map_err(|_| Failure::Argument {
+                field: "--set",
+                problem: format!("{text:?} gives no key a value"),
+                allowed: format!("KEY=VALUE, {new}"),
+            })?);
+        }
+        Ok(pairs)
+    }
+
+    /// The width of a circuit that has one.
+    fn one_width(&self, entry: &Entry, bits: &str) -> Result<Pair, Failure> {
+        let refuse = |problem: String, allowed: String| Failure::Argument {
+            field: "--width",
+            problem,
+            allowed,
+        };
+        if let [_, other, ..] = &self.width[..] {
+            let problem = format!("is {bits} and {other}");
+            return Err(refuse(problem, "one width".to_owned()));
+        }
+        let widths = entry.widths(Base::Full, &[]);
+        if let Some((key, bits)) = bits.split_once('=') {
+            let named = widths.iter().find(|(name, _)| name.rsplit('.').next() == Some(key));
+            let near = named.map_or(key, |(name, _)| name);
+            let problem = format!("{key} is a key");
+            return Err(refuse(problem, format!("--set {near}={bits}")));
+        }
+        match &widths[..] {
+            [(key, _)] => Ok(Pair::new(key, bits)),
+            [] => Err(refuse(
+                format!("{} has no width to choose", entry.name),
+                "none".to_owned(),
+            )),
+            [(first, _), ..] => {
+                let keys: Vec<_> = widths.iter().map(|(key, _)| key.as_str()).collect();
+                let (name, keys) = (entry.name, keys.join(", "));
+                Err(refuse(
+                    format!("{name} has several widths: {keys}"),
+                    format!("--set {first}={bits}"),
+                ))
+            }
+        }
+    }
+}
+
+/// The options again.
+impl fmt::Display for Changes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(numbers) = &self.with {
+            write!(f, " --with {}", numbers.join(" "))?;
+        }
+        for bits in &self.width {
+            write!(f, " --width {bits}")?;
+        }
+        self.set
+            .iter()
+            .try_for_each(|pair| write!(f, " --set {pair}"))
     }
 }
 
 /// The arguments again.
 impl fmt::Display for Chosen {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.circuit)?;
-        for Width { name, bits } in &self.width {
-            match name {
-                Some(name) => write!(f, " --width {name}={bits}")?,
-                None => write!(f, " --width {bits}")?,
-            }
-        }
-        let with: Vec<String> = self.with.iter().map(u64::to_string).collect();
-        match with.is_empty() {
-            true => Ok(()),
-            false => write!(f, " --with {}", with.join(",")),
-        }
+        write!(f, "{}{}", self.circuit, self.changes)
     }
 }
 
 impl Chosen {
-    /// It.
+    /// The full circuit with its changes.
     pub fn model(&self) -> Result<Box<dyn AnyModel>, Failure> {
         let entry = entry(&self.circuit)?;
-        let (width, named) = widths(&self.width)?;
-        let request = Request {
-            width,
-            named,
-            with: self.with.clone(),
-        };
-        entry
-            .requested(&request)
-            .map_err(|error| refused(entry, &request, &error))
+        let pairs = self.changes.pairs(entry)?;
+        let made = entry.made(Base::Full, &pairs);
+        made.map_err(|error| refused(entry, error))
     }
 }

@@ -1,6 +1,6 @@
 //! `list`: circuits with ports and widths, and scenarios; or one circuit with its parts.
 
-use super::check::entry;
+use super::chosen::{Changes, entry, no_circuit, refused};
 use super::connections::{Connections, Signal};
 use super::job::Job;
 use super::shipped::{SHIPPED, Shipped};
@@ -9,7 +9,7 @@ use super::waves_of::System;
 use super::{Failure, errors, print, print_json};
 use clap::Args;
 use motion_rtl::hdl::{Declaration, Role, RunError};
-use motion_rtl::registry::{CATALOGUE, Entry};
+use motion_rtl::registry::{AnyModel, Base, CATALOGUE, Entry, Key};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -19,6 +19,8 @@ use std::fmt::Write as _;
 pub struct Arguments {
     /// Only this circuit, with what it is made of: its parts, and what drives their ports in.
     circuit: Option<String>,
+    #[command(flatten)]
+    changes: Changes,
     /// Prints the list as JSON.
     #[arg(long)]
     json: bool,
@@ -37,15 +39,20 @@ struct Circuit {
     name: &'static str,
     about: &'static str,
     source: &'static str,
-    widths: BTreeMap<&'static str, usize>,
-    /// The numbers that proofs and charts make it with.
-    made_with: &'static str,
+    /// Keys with their values as it is built and as it is proved.
+    keys: BTreeMap<String, Values>,
     inputs: Vec<Port>,
     outputs: Vec<Port>,
     registers: usize,
     nets: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     connections: Option<Connections>,
+}
+
+#[derive(Debug, Serialize)]
+struct Values {
+    full: Option<String>,
+    small: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -79,15 +86,23 @@ impl Scenario {
 /// Lists.
 pub fn list(arguments: &Arguments) -> Result<(), Failure> {
     let listing = match &arguments.circuit {
+        None if !arguments.changes.is_empty() => {
+            return Err(no_circuit(&arguments.changes, "list"));
+        }
         None => Listing {
             version: errors::VERSION,
-            circuits: CATALOGUE.iter().map(circuit).collect(),
+            circuits: CATALOGUE
+                .iter()
+                .map(|entry| circuit(entry, &*entry.full()))
+                .collect(),
             scenarios: SHIPPED.iter().map(Scenario::of).collect::<Result<_, _>>()?,
         },
         Some(name) => {
             let entry = entry(name)?;
-            let connections = entry.full().connections().map_err(RunError::from)?;
-            let mut circuit = circuit(entry);
+            let made = entry.made(Base::Full, &arguments.changes.pairs(entry)?);
+            let made = made.map_err(|error| refused(entry, error))?;
+            let connections = made.connections().map_err(RunError::from)?;
+            let mut circuit = circuit(entry, &*made);
             circuit.connections = Connections::of(connections);
             Listing {
                 version: errors::VERSION,
@@ -102,8 +117,12 @@ pub fn list(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-fn circuit(entry: &Entry) -> Circuit {
-    let declarations = entry.declarations();
+fn circuit(entry: &Entry, made: &dyn AnyModel) -> Circuit {
+    let declarations = made.outline();
+    let keys = entry.keys().into_iter().map(|key| {
+        let Key { name, full, small } = key;
+        (name, Values { full, small })
+    });
     let leaves = &declarations.leaves;
     let port = |(name, leaf): (String, &Declaration)| Port {
         signal: Signal::of((name, leaf.shape)),
@@ -119,8 +138,7 @@ fn circuit(entry: &Entry) -> Circuit {
         name: entry.name,
         about: entry.about,
         source: entry.source,
-        widths: entry.widths().into_iter().collect(),
-        made_with: entry.arguments,
+        keys: keys.collect(),
         inputs: inputs.collect(),
         outputs: outputs.map(port).collect(),
         registers: count(Role::Register),
@@ -133,20 +151,16 @@ fn text(listing: &Listing) -> String {
     let mut text = String::from("circuits\n");
     // Writing to a string does not fail.
     for circuit in &listing.circuits {
-        let widths: Vec<_> = circuit
-            .widths
-            .iter()
-            .map(|(name, bits)| format!("{name} = {bits}"))
-            .collect();
         let _ = writeln!(
             text,
             "\n  {} ({}): {}",
             circuit.name, circuit.source, circuit.about
         );
-        if !widths.is_empty() {
-            let _ = writeln!(text, "    widths  {}", widths.join(", "));
+        for (of, keys) in keys(&circuit.keys) {
+            if !keys.is_empty() {
+                let _ = writeln!(text, "    {of:<6}  {keys}");
+            }
         }
-        let _ = writeln!(text, "    made    {}", circuit.made_with);
         let _ = writeln!(text, "    in      {}", ports(&circuit.inputs));
         let _ = writeln!(text, "    out     {}", ports(&circuit.outputs));
         if let Some(connections) = &circuit.connections {
@@ -162,6 +176,23 @@ fn text(listing: &Listing) -> String {
         let _ = writeln!(text, "    waves of  {}", scenario.systems.join(", "));
     }
     text
+}
+
+/// The keys with their full values, and those that are others in the small circuit.
+fn keys(keys: &BTreeMap<String, Values>) -> [(&'static str, String); 2] {
+    let list = |of: &dyn Fn(&Values) -> Option<String>| {
+        let all = keys
+            .iter()
+            .filter_map(|(name, values)| Some(format!("{name}={}", of(values)?)));
+        all.collect::<Vec<_>>().join(", ")
+    };
+    let unset = || "unset".to_owned();
+    let full = list(&|values| Some(values.full.clone().unwrap_or_else(unset)));
+    let small = list(&|values| {
+        let differs = values.small != values.full;
+        differs.then(|| values.small.clone().unwrap_or_else(unset))
+    });
+    [("keys", full), ("small", small)]
 }
 
 fn ports(ports: &[Port]) -> String {

@@ -49,6 +49,7 @@ mod written;
 
 use motion_rtl::hdl::RunError;
 use motion_rtl::input::{Fault, LISTED, SHOWN, shown};
+use motion_rtl::registry::WrongPair;
 use motion_rtl::settings::JobError;
 use std::borrow::Cow;
 use std::io::{self, Write};
@@ -74,6 +75,9 @@ pub enum Failure {
         /// What would be right.
         allowed: String,
     },
+    /// Keys and values that a circuit does not take: 2.
+    #[error("{}", lines(.0))]
+    Pairs(Vec<WrongPair>),
     /// A file that cannot be written: 2.
     #[error("{0}")]
     File(#[from] io::Error),
@@ -86,6 +90,15 @@ pub enum Failure {
     /// What should hold does not: 1.
     #[error("{0}")]
     Check(String),
+}
+
+/// A line for each key and value.
+fn lines(wrong: &[WrongPair]) -> String {
+    let lines = wrong.iter().map(|wrong| {
+        let (problem, allowed) = (shown(&wrong.problem, SHOWN), shown(&wrong.allowed, LISTED));
+        format!("--set {}: {problem}; allowed: {allowed}", wrong.pair)
+    });
+    lines.collect::<Vec<_>>().join("\nerror: ")
 }
 
 impl From<JobError> for Failure {

@@ -1,13 +1,14 @@
 //! `mutate`: single faults in circuits, and what finds them.
 
 use super::check::entries;
+use super::chosen::{self, Changes};
 use super::notes::NOTES;
 use super::{Failure, print, print_json, threads};
 use clap::Args;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use motion_rtl::hdl::RunError;
 use motion_rtl::input::{Fault, or_more_files, read_string};
-use motion_rtl::registry::{Campaign, CampaignError, Entry, Fate, Found, Suspect};
+use motion_rtl::registry::{Base, Campaign, CampaignError, Entry, Fate, Found, Pair, Suspect};
 use motion_rtl::trace::chart::{Chart, parse};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -24,6 +25,8 @@ pub struct Arguments {
     /// Circuits; without them all.
     #[arg(value_name = "CIRCUIT")]
     circuits: Vec<String>,
+    #[command(flatten)]
+    changes: Changes,
     /// The notes whose timing charts are run: a folder of Markdown, or one file; without it those
     /// of the circuits that ship.
     #[arg(long, value_name = "PATH")]
@@ -101,10 +104,16 @@ pub fn mutate(arguments: &Arguments) -> Result<(), Failure> {
         runs: arguments.runs,
         transitions: arguments.transitions,
     };
+    if arguments.circuits.is_empty() && !arguments.changes.is_empty() {
+        return Err(chosen::no_circuit(&arguments.changes, "mutate"));
+    }
     threads::start()?;
     let bars = MultiProgress::new();
     let entries = entries.into_par_iter().with_max_len(1);
-    let rows = entries.map(|entry| row(&campaign, &notes, entry, &bars));
+    let rows = entries.map(|entry| {
+        let pairs = arguments.changes.pairs(entry)?;
+        row(&campaign, &notes, (entry, &pairs), &bars)
+    });
     let report = Report::of(rows.collect::<Result<_, _>>()?);
     match arguments.json {
         true => print_json(&report)?,
@@ -191,7 +200,7 @@ fn charts(path: &Path) -> Result<Vec<(String, Chart)>, Failure> {
 fn row(
     campaign: &Campaign,
     notes: &[String],
-    entry: &'static Entry,
+    (entry, pairs): (&'static Entry, &[Pair]),
     bars: &MultiProgress,
 ) -> Result<Row, Failure> {
     let begun = Instant::now();
@@ -200,13 +209,27 @@ fn row(
         bar.set_style(style);
     }
     bar.set_prefix(entry.name);
-    let suspects = campaign.run(entry, &|all| {
+    let suspects = campaign.run(entry, pairs, &|all| {
         bar.set_length(all as u64);
         bar.inc(1);
     });
     bar.finish_and_clear();
     let suspects = suspects.map_err(|error| match error {
         CampaignError::Engine(error) => Failure::Run(RunError::from(error)),
+        CampaignError::Refused {
+            chart: None,
+            refused,
+            ..
+        } => chosen::refused(entry, refused),
+        CampaignError::Refused {
+            chart: Some(chart),
+            circuit,
+            refused,
+        } => {
+            let (line, circuit) = (campaign.charts[chart].line, format!("chart of {circuit}"));
+            let problem = refused.to_string();
+            Failure::Input(Fault::new(&notes[chart], line, circuit, problem, CHARTS))
+        }
         CampaignError::Chart { chart, failure } => {
             Failure::Check(format!("{}: {failure}", notes[chart]))
         }
@@ -235,16 +258,18 @@ impl Told {
             Fate::Unseen => ("unseen", String::new()),
             Fate::Refused => ("refused", String::new()),
             Fate::Missed {
-                given,
+                made: (base, pairs),
                 run,
                 tick,
                 port,
             } => {
-                let given: Vec<_> = given.iter().map(u64::to_string).collect();
-                let by = format!(
-                    "[{}], random run {run}, tick {tick}: {port}",
-                    given.join(", ")
-                );
+                let base = match base {
+                    Base::Full => "full",
+                    Base::Small => "small",
+                };
+                let made: Vec<_> = pairs.iter().map(Pair::to_string).collect();
+                let made = made.join(", ");
+                let by = format!("{base}[{made}], random run {run}, tick {tick}: {port}");
                 ("missed", by)
             }
         };

@@ -355,6 +355,23 @@ impl Image {
         bits.map(|word| word.load_le::<u64>())
     }
 
+    /// The words in an image of other widths; words that it has no room for are a mistake, unless
+    /// they are zeros at the end.
+    #[track_caller]
+    pub fn resized(&self, address: usize, width: usize) -> Self {
+        match (self.address, self.width) == (address, width) {
+            true => self.clone(),
+            false => Image::of(address, width, self.written()),
+        }
+    }
+
+    /// The words up to the last that is not zero.
+    pub(super) fn written(&self) -> Vec<u64> {
+        let mut words: Vec<u64> = self.iter().collect();
+        while words.pop_if(|word| *word == 0).is_some() {}
+        words
+    }
+
     /// Replaces the word at `address`.
     #[track_caller]
     pub fn set(&mut self, address: usize, word: u64) {

@@ -15,6 +15,7 @@ mod build;
 mod cost;
 mod declare;
 mod elaborate;
+mod image;
 mod keywords;
 pub(crate) mod leaves;
 mod macros;

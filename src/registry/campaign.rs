@@ -1,6 +1,6 @@
 //! Single faults put into circuits, and what finds them.
 
-use super::{AnyModel, CATALOGUE, Entry, ProofSearch, Verdict, sweeps};
+use super::{AnyModel, Base, Entry, Pair, ProofSearch, Refused, Verdict, find};
 use crate::check::Stimulus;
 use crate::engine::{EngineError, Watch};
 use crate::hdl::mutation::{mutated, mutations};
@@ -29,7 +29,7 @@ use std::collections::BTreeMap;
 /// )?;
 /// let campaign = Campaign { charts, ticks: 1_000, runs: 4, transitions: 1_000_000 };
 /// let circuit = find("sync_stage").expect("it is in the catalogue");
-/// let suspects = campaign.run(circuit, &|_| ())?;
+/// let suspects = campaign.run(circuit, &[], &|_| ())?;
 /// assert!(suspects.iter().any(|suspect| matches!(suspect.fate, Fate::Found(_))));
 /// # Ok(())
 /// # }
@@ -66,8 +66,8 @@ pub enum Fate {
     Refused,
     /// Nothing found it, though it shows.
     Missed {
-        /// The numbers that the circuit was made with; none for its full widths.
-        given: Vec<u64>,
+        /// The circuit as it was made: base and changed keys.
+        made: (Base, Vec<Pair>),
         /// The number of the random run.
         run: u64,
         /// The first tick at which it shows.
@@ -96,6 +96,16 @@ pub enum CampaignError {
     /// The circuit, or one around it, cannot be elaborated.
     #[error(transparent)]
     Engine(#[from] EngineError),
+    /// The circuit, or that of a chart, does not take its keys.
+    #[error("{circuit}: {refused}")]
+    Refused {
+        /// Number of the chart in [`Campaign::charts`], from 0; none for the circuit itself.
+        chart: Option<usize>,
+        /// Name of the circuit.
+        circuit: &'static str,
+        /// Why.
+        refused: Refused,
+    },
     /// A chart does not hold of the circuit without a fault: it would find every one.
     #[error("chart {chart}: {failure}")]
     Chart {
@@ -108,20 +118,18 @@ pub enum CampaignError {
 
 crate::hdl::debug_as_display!(CampaignError);
 
-/// A circuit made with numbers, and the charts of it.
+/// A circuit as it was made, and the charts of it.
 struct Made<'c> {
     entry: &'static Entry,
-    given: Vec<u64>,
+    base: Base,
+    pairs: Vec<Pair>,
     model: Model,
     charts: Vec<&'c Chart>,
 }
 
 impl Made<'_> {
     fn circuit(&self) -> Option<Box<dyn AnyModel>> {
-        match self.given.is_empty() && self.charts.is_empty() {
-            true => Some(self.entry.full()),
-            false => self.entry.model(&self.given),
-        }
+        self.entry.made(self.base, &self.pairs).ok()
     }
 
     /// It with a fault; nothing where the fault has no place in it.
@@ -157,22 +165,25 @@ struct Shown {
 }
 
 impl Campaign {
-    /// The faults of a circuit, and what becomes of each. `progress` is called after each with the
-    /// number of all.
+    /// Puts faults into a circuit, and finds what becomes of each. Where there are `pairs`, the faults
+    /// are those of the full circuit with these keys changed, else those of the circuits that the charts
+    /// are of. `progress` is called after each with the number of all.
     ///
     /// # Errors
-    /// The circuit, or one that a chart is of, cannot be elaborated; a chart does not hold.
+    /// The circuit, or one that a chart is of, cannot be made or elaborated; a chart does not hold.
     pub fn run(
         &self,
         entry: &'static Entry,
+        pairs: &[Pair],
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Vec<Suspect>, CampaignError> {
-        let (own, around) = self.made(entry)?;
+        let (own, around) = self.made(entry, pairs)?;
         for made in own.iter().chain(&around) {
             made.holds(&self.charts)?;
         }
         let mut found: Vec<Mutation> = Vec::new();
-        for made in &own {
+        let asked = if pairs.is_empty() { own.len() } else { 1 };
+        for made in &own[..asked] {
             let Some(circuit) = made.circuit() else {
                 continue;
             };
@@ -192,30 +203,38 @@ impl Campaign {
         Ok(suspects.collect())
     }
 
-    /// The circuit as its charts have it, with them, or else with its full widths; and other circuits
-    /// that it is inside of, with theirs.
-    fn made(&self, entry: &'static Entry) -> Result<(Vec<Made<'_>>, Vec<Made<'_>>), EngineError> {
-        let mut charts: BTreeMap<(&str, &[u64]), Vec<&Chart>> = BTreeMap::new();
-        for chart in &self.charts {
-            let key = (chart.circuit.as_str(), &chart.args[..]);
-            charts.entry(key).or_default().push(chart);
+    /// The circuit as its charts have it, with them; before those as it is asked for, or in full where
+    /// there are no charts; and other circuits that it is inside of, with theirs.
+    fn made(
+        &self,
+        entry: &'static Entry,
+        pairs: &[Pair],
+    ) -> Result<(Vec<Made<'_>>, Vec<Made<'_>>), CampaignError> {
+        let mut charts: BTreeMap<_, Vec<(usize, &Chart)>> = BTreeMap::new();
+        for (number, chart) in self.charts.iter().enumerate() {
+            let key = (chart.circuit.as_str(), &chart.pairs[..]);
+            charts.entry(key).or_default().push((number, chart));
         }
         let full = entry.full().model()?;
         let (mut own, mut around) = (Vec::new(), Vec::new());
-        for ((name, given), charts) in charts {
-            let of = CATALOGUE.iter().find(|entry| entry.name == name);
-            let Some((of, circuit)) = of.and_then(|of| Some((of, of.model(given)?))) else {
-                continue;
+        for ((name, pairs), charts) in charts {
+            // A chart may be of a circuit that is not in the catalogue.
+            let Some(of) = find(name) else { continue };
+            let refused = |refused| CampaignError::Refused {
+                chart: charts.first().map(|(number, _)| *number),
+                circuit: of.name,
+                refused,
             };
-            let model = circuit.model()?;
+            let model = of.made(Base::Small, pairs).map_err(refused)?.model()?;
             let inside = &model.design().modules[..model.design().modules.len() - 1];
             let is_inside = inside
                 .iter()
                 .any(|module| of_circuit(&module.name, full.name()));
             let made = Made {
                 entry: of,
-                given: given.to_vec(),
-                charts,
+                base: Base::Small,
+                pairs: pairs.to_vec(),
+                charts: charts.into_iter().map(|(_, chart)| chart).collect(),
                 model,
             };
             if of.name == entry.name {
@@ -224,13 +243,21 @@ impl Campaign {
                 around.push(made);
             }
         }
-        if own.is_empty() {
-            own.push(Made {
+        if own.is_empty() || !pairs.is_empty() {
+            let made = entry.made(Base::Full, pairs);
+            let made = made.map_err(|refused| CampaignError::Refused {
+                chart: None,
+                circuit: entry.name,
+                refused,
+            })?;
+            let asked = Made {
                 entry,
-                given: Vec::new(),
-                model: full,
+                base: Base::Full,
+                pairs: pairs.to_vec(),
+                model: made.model()?,
                 charts: Vec::new(),
-            });
+            };
+            own.insert(0, asked);
         }
         Ok((own, around))
     }
@@ -310,7 +337,7 @@ impl Campaign {
         for (made, shown, model) in &faulty {
             if let Some((run, tick, port)) = self.shows(shown, model) {
                 missed = Fate::Missed {
-                    given: made.given.clone(),
+                    made: (made.base, made.pairs.clone()),
                     run,
                     tick,
                     port,
@@ -338,7 +365,7 @@ impl Campaign {
 
     /// Whether a proof or law of the circuit finds a fault.
     fn proof_or_law(&self, entry: &Entry, mutation: &Mutation) -> Option<Found> {
-        if let Some(circuit) = entry.proof_width.and_then(|width| entry.make(&[width]))
+        if let Ok(circuit) = entry.proof(&[])
             && let Some(Ok(model)) = mutated(mutation, || circuit.model())
         {
             let search = ProofSearch {
@@ -350,15 +377,10 @@ impl Campaign {
                 return Some(Found::Proof);
             }
         }
-        for law in sweeps(entry.name) {
-            let law = (law.make)(&[*law.widths.start()])?;
-            let model = mutated(mutation, || law.model())?.ok()?;
-            let swept = law.sweep(0..law.cases().ok()?, Some(model), None, &|_| {});
-            if let Ok(Verdict::Broken { .. }) = swept {
-                return Some(Found::Law);
-            }
-        }
-        None
+        let law = entry.least_law()?;
+        let model = mutated(mutation, || law.model())?.ok()?;
+        let swept = law.sweep(0..law.cases().ok()?, Some(model), None, &|_| {});
+        matches!(swept, Ok(Verdict::Broken { .. })).then_some(Found::Law)
     }
 }
 

@@ -1,23 +1,38 @@
-//! All circuits by name: what `list` and `check` show, what a note's timing charts run.
+//! All circuits by name, each with a full and a small value whose keys can be changed.
+//!
+//! ```
+//! use motion_rtl::registry::{Base, Pair, find};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let comparator = find("comparator").ok_or("no such circuit")?;
+//! let pairs = [Pair::new("position", 20), "comparing=equal".parse()?];
+//! let circuit = comparator.made(Base::Full, &pairs)?;
+//! assert_eq!(circuit.name(), "comparator");
+//!
+//! let refused = comparator.made(Base::Full, &["comparing=equl".parse()?]).err();
+//! let text = "comparing: unknown variant `equl`; did you mean `equal`?; \
+//!             allowed: `crossing` or `equal`";
+//! assert_eq!(refused.map(|error| error.to_string()).as_deref(), Some(text));
+//! # Ok(())
+//! # }
+//! ```
 
 mod campaign;
 mod circuits;
 mod entry;
+mod keys;
 mod model;
 mod sweep;
 
+pub use crate::settings::{Pair, PairError};
 pub use campaign::{Campaign, CampaignError, Fate, Found, Suspect};
 pub use circuits::CATALOGUE;
-pub use entry::{Entry, Refused, Request, WIDTHS};
+pub use entry::{Base, Entry};
+pub use keys::{Key, Refused, WrongPair};
 pub use model::{AnyCircuit, AnyModel, ProofSearch, Verdict};
-pub use sweep::{AnySweep, SWEEPS, SweepEntry};
+pub use sweep::AnySweep;
 
-/// The entry of that name.
+/// Returns the entry of that name.
 pub fn find(name: &str) -> Option<&'static Entry> {
     CATALOGUE.iter().find(|entry| entry.name == name)
-}
-
-/// The laws of the circuit of that name.
-pub fn sweeps(circuit: &str) -> impl Iterator<Item = &'static SweepEntry> {
-    SWEEPS.iter().filter(move |entry| entry.circuit == circuit)
 }

@@ -1,68 +1,11 @@
 //! Laws that are swept, their types forgotten.
 
-use super::circuits::make::{RULES, at_most, one_of};
 use super::{AnyModel, Verdict};
 use crate::check::{CheckError, Law, Swept, cases, sweep};
-use crate::circuits::linear_interpolator::{Integrator, LineSweep};
-use crate::circuits::trajectory_controller::error_feedback::FeedbackWidths;
-use crate::circuits::trajectory_controller::{ErrorFeedback, FeedbackSweep};
 use crate::hdl::Model;
 use crate::trace::Clock;
-use std::ops::{Range, RangeInclusive};
+use std::ops::Range;
 use std::path::Path;
-
-/// A law of a circuit of the catalogue.
-#[derive(Debug, Clone)]
-pub struct SweepEntry {
-    /// The circuit's name.
-    pub circuit: &'static str,
-    /// Makes it from the numbers that the circuit's [`Entry`](super::Entry) takes; `None` where
-    /// there is none with them.
-    pub make: fn(&[u64]) -> Option<Box<dyn AnySweep>>,
-    /// The width it is swept at unless another is asked for.
-    pub width: u64,
-    /// The widths of which there are not too many cases.
-    pub widths: RangeInclusive<u64>,
-}
-
-/// A case of the integrator's law is four positions: 2^32 cases at 8 bits.
-const POSITIONS: RangeInclusive<u64> = 2..=8;
-
-/// A case of the error feedback's law is error and way of two axes, and two gains: 2^28 cases at 4
-/// bits.
-const COUNTS: RangeInclusive<u64> = 2..=4;
-
-/// Every law.
-pub static SWEEPS: &[SweepEntry] = &[
-    SweepEntry {
-        circuit: "integrator",
-        make: |given| {
-            let rule = one_of(given, RULES)?;
-            let width = given.first().filter(|width| POSITIONS.contains(*width))?;
-            let position = *width as usize;
-            Some(Box::new(LineSweep::new(Integrator { position, rule })))
-        },
-        width: 6,
-        widths: POSITIONS,
-    },
-    SweepEntry {
-        circuit: "error_feedback",
-        make: |given| {
-            at_most(given, 1)?;
-            let width = given.first().filter(|width| COUNTS.contains(*width))?;
-            let count = *width as usize;
-            let widths = FeedbackWidths {
-                count,
-                position: count + 2,
-                gain: count,
-            };
-            let feedback = ErrorFeedback { widths, axes: 2 };
-            Some(Box::new(FeedbackSweep::new(feedback)))
-        },
-        width: 3,
-        widths: COUNTS,
-    },
-];
 
 /// A law with its circuit, its type forgotten.
 pub trait AnySweep: Sync + AnyModel {

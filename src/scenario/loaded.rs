@@ -2,7 +2,7 @@ mod errors;
 
 use super::{BARE, BARE_LOG, Runnable, Scenario};
 use crate::input::{DRAWINGS, Fault, Kind, POSITION_LOGS, read_string_of};
-use crate::settings::{Place, SettingError};
+use crate::settings::{self, Place, SettingError};
 use errors::{key_of, of_lists, split};
 use serde::Deserialize;
 use serde_path_to_error::Segment;
@@ -354,20 +354,9 @@ fn set_fault(key: &str, error: &Located) -> Fault {
 
 fn key_value(set: &str) -> Result<(&str, Value), Fault> {
     let allowed = "key=value with a key of the scenario";
-    let Some((key, value)) = set.split_once('=') else {
-        return Err(Fault::new(SET, 0, set, "no '='", allowed));
-    };
-    let (key, value) = (key.trim(), value.trim());
-    if key.is_empty() {
-        return Err(Fault::new(SET, 0, set, "no key", allowed));
-    }
-    // A value that is no TOML is meant as a string: `--set variant=literal`.
-    let parsed = format!("x = {value}").parse::<Table>().ok();
-    let value = parsed
-        .filter(|table| table.len() == 1)
-        .and_then(|mut table| table.remove("x"))
-        .unwrap_or_else(|| Value::String(value.to_owned()));
-    Ok((key, value))
+    let pair = settings::key_value(set);
+    let (key, text) = pair.map_err(|problem| Fault::new(SET, 0, set, problem, allowed))?;
+    Ok((key, settings::value(text)))
 }
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
 //! Timing charts in Markdown that are executed.
 //!
-//! A chart is a fenced code block. Its first line names a circuit and, in brackets, its build
-//! arguments. A `tick` line numbers the columns, from power-on at tick 0. Each line below it is a
-//! signal:
+//! A chart is a fenced code block. Its first line names a circuit and, in brackets, the keys that it
+//! changes of the small circuit. A `tick` line numbers the columns, from power-on at tick 0. Each
+//! line below it is a signal:
 //!
 //! ````markdown
-//! ```chart counter[3] the counter wraps at its period
+//! ```chart counter[width=3] the counter wraps at its period
 //! tick      0  1  2  3  4
 //! > period  3  .  .  2  .
 //! = count   1  2  0  1  0
@@ -30,13 +30,15 @@ mod run;
 pub use parse::parse;
 pub use run::{ChartFailure, Mismatch};
 
+use crate::settings::{Pair, PairError};
+
 /// Timing chart that was read but not yet run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Chart {
     /// Name of the circuit: its [`NAME`](crate::hdl::Circuit::NAME).
     pub circuit: String,
-    /// Build arguments in brackets, such as widths.
-    pub args: Vec<u64>,
+    /// Changed keys of the circuit, in brackets.
+    pub pairs: Vec<Pair>,
     /// Title after the brackets.
     pub title: String,
     /// Line of the fence in the note, from 1.
@@ -80,8 +82,11 @@ pub struct ChartError {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Problem {
     /// The fence does not name a circuit.
-    #[error("a chart begins with ```chart CIRCUIT or ```chart CIRCUIT[NUMBER, ...]")]
+    #[error("a chart begins with ```chart CIRCUIT or ```chart CIRCUIT[KEY=VALUE, ...]")]
     Fence,
+    /// An element in brackets is no key with a value.
+    #[error(transparent)]
+    Pair(#[from] PairError),
     /// The title has a backtick, so that the line is no fence.
     #[error("a title has no backtick: Markdown takes the line for text")]
     Backtick,

@@ -9,6 +9,8 @@ mod monitor;
 mod proofs;
 mod reach;
 mod report;
+#[path = "../scaled/mod.rs"]
+mod scaled;
 mod search;
 mod sweep;
 mod widths;

@@ -4,14 +4,13 @@ use super::support::{Bench, Done, keys, list};
 use serde_json::{Value, json};
 
 /// Proofs and a sweep that take no time.
-const WORK: [&str; 7] = [
+const WORK: [&str; 6] = [
     "check",
-    "sync_stage",
-    "address_sequencer",
+    "touch_probe",
+    "differentiator",
     "integrator",
-    "enable_counter",
-    "--width",
-    "3",
+    "axis_switch",
+    "--set=position=3",
 ];
 
 /// Runs part `part` of `of` into a file of that name.
@@ -114,7 +113,12 @@ fn parts_come_together_to_the_whole() {
 #[ignore = "takes long"]
 fn what_is_broken_in_a_part_is_broken_in_the_whole() {
     let bench = Bench::new();
-    let work = ["check", "unit_law", "line_law", "--with", "1"];
+    let work = [
+        "check",
+        "unit_law",
+        "pulse_generator",
+        "--set=variant=literal",
+    ];
     let whole = bench.run(&work);
     assert_eq!(whole.code, 1);
     let files = ["a.json".to_owned(), "b.json".to_owned()];
@@ -128,12 +132,12 @@ fn what_is_broken_in_a_part_is_broken_in_the_whole() {
 #[test]
 fn a_circuit_that_is_named_twice_is_checked_once() {
     let bench = Bench::new();
-    let once = ["check", "sync_stage", "integrator", "--width", "3"];
+    let once = ["check", "differentiator", "integrator", "--width", "3"];
     let twice = [
         "check",
-        "sync_stage",
+        "differentiator",
         "integrator",
-        "sync_stage",
+        "differentiator",
         "integrator",
         "--width",
         "3",
@@ -223,7 +227,8 @@ fn a_part_that_there_is_not_is_refused() {
 
 #[test]
 fn a_width_of_a_sweep_is_refused_by_its_own() {
-    let text = "--width: is 9; allowed: 2 to 8";
+    let text = "--set: integrator: a sweep over 68719476736 cases; allowed: smaller widths, for \
+                4294967296 cases at most";
     Bench::new().refuse(&["check", "integrator", "--width", "9"], text);
 }
 
@@ -257,12 +262,12 @@ fn parts_that_do_not_belong_together_are_refused() {
         &["part1.json", "again.json"],
         "again.json: shard.part: is 1, as that of part1.json; allowed: each part once",
     );
-    let other = ["check", "sync_stage", "--width", "3", "--limit", "9"];
+    let other = ["check", "touch_probe", "--set=position=3", "--limit", "9"];
     part(&bench, &other, "2/2", "other.json");
     refuse(
         &["part1.json", "other.json"],
-        "other.json: asked: check sync_stage --width 3 --limit 9, that of part1.json check \
-         sync_stage address_sequencer integrator enable_counter --width 3 --limit 67108864; \
+        "other.json: asked: check touch_probe --set position=3 --limit 9, that of part1.json check \
+         touch_probe differentiator integrator axis_switch --set position=3 --limit 67108864; \
          allowed: parts of one work",
     );
     part(&bench, &WORK, "2/3", "third.json");

@@ -3,6 +3,7 @@
 use super::support::{Bench, keys};
 use motion_rtl::registry::CATALOGUE;
 use predicates::prelude::*;
+use serde_json::json;
 
 #[test]
 fn a_proof_names_states_and_invariants() {
@@ -43,7 +44,14 @@ fn a_proof_that_is_given_up_fails() {
 #[test]
 fn the_literal_variant_breaks_and_shows_how() {
     let bench = Bench::new();
-    let arguments = ["check", "unit_law", "--with", "1", "--out", "found/here"];
+    let arguments = [
+        "check",
+        "unit_law",
+        "--set",
+        "variant=literal",
+        "--out",
+        "found/here",
+    ];
     bench
         .command(&arguments)
         .assert()
@@ -66,7 +74,14 @@ fn the_literal_variant_breaks_and_shows_how() {
 #[test]
 fn a_counterexample_is_told_where_its_waves_cannot_be_written() {
     Bench::with("taken", "")
-        .command(&["check", "unit_law", "--with", "1", "--out", "taken"])
+        .command(&[
+            "check",
+            "unit_law",
+            "--set",
+            "variant=literal",
+            "--out",
+            "taken",
+        ])
         .assert()
         .code(1)
         .stdout(predicate::str::contains("BROKEN"))
@@ -81,18 +96,27 @@ fn a_counterexample_is_told_where_its_waves_cannot_be_written() {
 
 #[test]
 fn the_table_tells_what_a_circuit_is_made_with() {
-    let run = Bench::new().run(&["check", "line_law", "--with", "2"]);
+    let rule = "integrator.rule=centred";
+    let run = Bench::new().run(&["check", "line_law", "--set", rule]);
     assert_eq!(run.code, 0, "{}", run.stderr);
     let row = run.stdout.lines().nth(1).expect("a row");
     let words: Vec<_> = row.split_whitespace().take(2).collect();
-    assert_eq!(words, ["line_law", "3,2"]);
+    assert_eq!(words, ["line_law", "3"]);
+    assert!(
+        row.ends_with("proved --set integrator.rule=centred"),
+        "{row}"
+    );
+    // The least and the greatest of several widths.
+    let text = Bench::new().succeed(&["check", "command_join"]);
+    assert!(text.contains("command_join             2-3 "), "{text}");
 }
 
 #[test]
 fn one_circuit_that_is_too_wide_does_not_hide_the_others() {
-    let text = "error: pulse_interpolator at width 4: ";
+    let text = "error: pulse_interpolator: ";
+    let wide = ["--set", "widths.half_period=4", "--set", "widths.period=4"];
     Bench::new()
-        .command(&["check", "pulse_interpolator", "--width", "4"])
+        .command(&[&["check", "pulse_interpolator"], &wide[..]].concat())
         .assert()
         .code(2)
         .stdout(predicate::str::contains("too wide"))
@@ -140,25 +164,42 @@ fn what_cannot_be_proved_is_refused() {
         &["check", "nonsense"],
         &format!("CIRCUIT: there is no nonsense; allowed: {names}"),
     );
-    for width in ["9", "1", "0", "18446744073709551615"] {
-        let text = format!("--width: is {width}; allowed: 2 to 4");
-        bench.refuse(&["check", "--width", width], &text);
-    }
-    let with = |circuit: &str, numbers: &str, text: &str| {
-        let problem = format!("--with: {circuit} cannot be made with {text}");
-        bench.refuse(&["check", circuit, "--with", numbers], &problem);
+    let none = "CIRCUIT: none, with --width 3; allowed: a circuit that has the key, check comparator \
+                --set comparing=equal";
+    bench.refuse(&["check", "--width", "3"], none);
+    let set = |circuit: &str, pair: &str, text: &str| {
+        bench.refuse(
+            &["check", circuit, "--set", pair],
+            &format!("--set {pair}: {text}"),
+        );
     };
-    const VARIANTS: &str = "allowed: width, 0 for safe or 1 for literal";
-    const RULES: &str = "allowed: width, 0 for floor, 1 for truncating or 2 for centred";
-    with("unit_law", "7", &format!("[3, 7]; {VARIANTS}"));
-    with("unit_law", "1,0", &format!("[3, 1, 0]; {VARIANTS}"));
-    with("integrator", "9", &format!("[6, 9]; {RULES}"));
-    with("line_law", "3", &format!("[3, 3]; {RULES}"));
-    with("sync_stage", "1", "[3, 1]; allowed: nothing");
-    with(
-        "unit_time_register",
-        "8",
-        "[3, 8]; allowed: width, T at power-on",
+    set(
+        "unit_law",
+        "variant=literel",
+        "unknown variant `literel`; did you mean `literal`?; allowed: `safe` or `literal`",
+    );
+    set(
+        "integrator",
+        "rule=9",
+        "invalid type: integer `9`; allowed: string or map",
+    );
+    set(
+        "sync_stage",
+        "x=1",
+        "no key of sync_stage; allowed: none: it has no keys",
+    );
+    let values = bench.run(&["check", "unit_time_register", "--set", "period=8"]);
+    assert_eq!(values.code, 2);
+    assert!(
+        values.stderr.contains("8 does not fit 3 bits"),
+        "{}",
+        values.stderr
+    );
+    // The former spelling says the one that counts.
+    bench.refuse(
+        &["check", "compensator", "--with", "0", "0", "0", "3"],
+        "--with: takes no numbers; allowed: values by their keys, --set variant.comparing=crossing; \
+         see `list compensator`",
     );
     for arguments in [["check", "--width", "wide"], ["check", "--limit", "-1"]] {
         assert_eq!(bench.run(&arguments).code, 2);
@@ -186,7 +227,11 @@ fn the_list_has_every_circuit_with_ports_and_widths() {
         circuit[way].as_array().unwrap().iter().map(port).collect()
     };
     let generator = find("pulse_generator");
-    assert_eq!(generator["widths"]["width"], 16);
+    assert_eq!(
+        generator["keys"]["width"],
+        json!({"full": "16", "small": "3"})
+    );
+    assert_eq!(generator["keys"]["variant"]["full"], "safe");
     let half_period = ("half_period".to_owned(), 16);
     assert!(
         ports(generator, "inputs").contains(&half_period),

@@ -6,7 +6,7 @@ use serde_json::json;
 
 /// A chart that sees one period and nothing of the tick after it.
 const NOTE: &str = "\
-```chart enable_counter[4] a period of three
+```chart enable_counter[width=4] a period of three
 tick      0  1  2
 > period  3  .  .
 = enable  _  _  #
@@ -53,7 +53,7 @@ fn it_runs_where_there_are_no_notes() {
 fn what_nothing_finds_is_listed_with_where_it_shows() {
     // The circuit is too wide for a proof.
     let note = "\
-```chart difference_engine[4] nothing happens
+```chart difference_engine nothing happens
 tick       0
 > modulus  8
 = nearest  0
@@ -74,15 +74,15 @@ tick       0
         difference_engine 6 1 0 0 0 5 16.7 %
         6 faults, 0 of them not seen at a port out; of the others 16.67 % found, 5 missed
         difference_engine: nearest: low: missed
-        shows at [4], random run 0, tick 0: difference_engine.nearest
+        shows at small[], random run 0, tick 0: difference_engine.nearest
         difference_engine: d1.data: crossed with the next one: missed
-        shows at [4], random run 0, tick 132: difference_engine.nearest
+        shows at small[], random run 0, tick 132: difference_engine.nearest
         difference_engine: d2.data: crossed with the next one: missed
-        shows at [4], random run 0, tick 828: difference_engine.nearest
+        shows at small[], random run 0, tick 828: difference_engine.nearest
         difference_engine: d3.data: crossed with the next one: missed
-        shows at [4], random run 0, tick 829: difference_engine.nearest
+        shows at small[], random run 0, tick 829: difference_engine.nearest
         difference_engine: d4.data: crossed with the next one: missed
-        shows at [4], random run 0, tick 1994: difference_engine.nearest
+        shows at small[], random run 0, tick 1994: difference_engine.nearest
     "#]]
     .assert_eq(&timeless(&done.stdout));
     expect![[r#"
@@ -122,7 +122,7 @@ fn a_chart_that_does_not_hold_would_find_everything() {
     expect![[r#"
         error: note.md: line 4: tick 1: enable is _, the chart says #
         what the circuit does:
-        ```chart enable_counter[4] a period of three
+        ```chart enable_counter[width=4] a period of three
         tick      0  1  2
         > period  3  .  .
         = enable  _  _  #
@@ -133,7 +133,7 @@ fn a_chart_that_does_not_hold_would_find_everything() {
 
 #[test]
 fn notes_that_cannot_be_read_are_refused() {
-    let bench = Bench::with("note.md", "```chart enable_counter[4\n```\n");
+    let bench = Bench::with("note.md", "```chart enable_counter[width=4\n```\n");
     bench.write("empty/other.txt", NOTE);
     let mut said = String::new();
     for path in ["note.md", "empty", "none"] {
@@ -152,7 +152,7 @@ fn notes_that_cannot_be_read_are_refused() {
         said += &format!("{}\n", first.split("; allowed").next().unwrap_or_default());
     }
     expect![[r#"
-        error: note.md:1: chart: a chart begins with ```chart CIRCUIT or ```chart CIRCUIT[NUMBER, ...]; allowed: Markdown with timing charts, or a folder of it
+        error: note.md:1: chart: a chart begins with ```chart CIRCUIT or ```chart CIRCUIT[KEY=VALUE, ...]; allowed: Markdown with timing charts, or a folder of it
         error: --charts: empty has no timing chart; allowed: Markdown with timing charts, or a folder of it
         error: none: file: cannot be read: No such file or directory (os error 2); allowed: a readable file
         error: CIRCUIT: there is no counter

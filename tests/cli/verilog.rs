@@ -95,10 +95,10 @@ fn the_word_of_the_stimulus_is_that_of_the_testbench() {
 #[test]
 fn a_width_is_refused_where_there_is_none_to_choose() {
     let bench = Bench::new();
-    for circuit in ["machine", "sync_stage"] {
+    for circuit in ["cycle_gate", "sync_stage"] {
         bench.refuse(
             &verilog(circuit, &["--width", "5", "--out", "v"]),
-            &format!("--width: {circuit} has no widths to choose; allowed: none"),
+            &format!("--width: {circuit} has no width to choose; allowed: none"),
         );
     }
 }
@@ -164,7 +164,7 @@ fn the_trajectory_controller_has_up_to_four_axes() {
         let bench = Bench::new();
         bench.succeed(&verilog(
             "trajectory_controller",
-            &["--width", axes, "--out", "v"],
+            &["--set", axes, "--out", "v"],
         ));
         let text = bench.read("v/trajectory_controller.v");
         let words: Vec<&str> = text.split_whitespace().collect();
@@ -174,7 +174,7 @@ fn the_trajectory_controller_has_up_to_four_axes() {
             assert_eq!(text.contains(name), axes == "axes=4", "{axes}: {name}");
         }
     }
-    let five = ["--width", "axes=5", "--out", "v"];
+    let five = ["--set", "axes=5", "--out", "v"];
     Bench::new().refuse_with(&verilog("trajectory_controller", &five), |text| {
         assert!(text.contains("1 to 4 axes have names, not 5"), "{text}");
     });
@@ -195,24 +195,50 @@ fn widths_and_numbers_that_are_not_taken_are_refused() {
     let bench = Bench::new();
     bench.refuse(
         &verilog("enable_counter", &["--width", "0", "--out", "v"]),
-        "--width: enable_counter cannot be made with [0]; allowed: width, the width 1 to 64",
+        "--set: enable_counter: src/circuits/blocks/enable_counter.rs:29:1: enable_counter: `period` has \
+         0 bits; a word has 1 to 64\\nsrc/circuits/blocks/enable_counter.rs:29:1: enable_counter: `count` \
+         has 0 bits; a word has 1 to 64; allowed: values that go together",
     );
     bench.refuse(
-        &verilog("unit_law", &["--width", "8", "--with", "99", "--out", "v"]),
-        "--with: unit_law cannot be made with [8, 99]; allowed: width, 0 for safe or 1 for literal",
+        &verilog("unit_law", &["--with", "1", "--out", "v"]),
+        "--with: takes no numbers; allowed: values by their keys, --set variant=safe; see `list unit_law`",
     );
     bench.refuse(
-        &verilog("axis", &["--width", "nonsense=4", "--out", "v"]),
-        "--width: axis: there is no width nonsense; allowed: half_period, address",
+        &verilog("axis", &["--width", "half_period=4", "--out", "v"]),
+        "--width: half_period is a key; allowed: --set memory.half_period=4",
     );
+    bench.refuse(
+        &verilog("axis", &["--width", "4", "--out", "v"]),
+        "--width: axis has several widths: memory.address, memory.half_period; allowed: --set \
+         memory.address=4",
+    );
+    // All that is wrong, at once.
+    const KEYS: &str = "memory.address, memory.axis, memory.contents.directions, \
+                        memory.contents.half_periods, memory.half_period, variant";
+    let wrong = [
+        "--set",
+        "half_perod=4",
+        "--set",
+        "variant=literel",
+        "--set",
+        "memory.address=x",
+    ];
+    let done = bench.run(&verilog("axis", &[&wrong[..], &["--out", "v"]].concat()));
+    let told = format!(
+        "error: --set half_perod=4: no key of axis; did you mean `memory.half_period`?; allowed: {KEYS}\n\
+         error: --set variant=literel: unknown variant `literel`; did you mean `literal`?; allowed: \
+         `safe` or `literal`\n\
+         error: --set memory.address=x: invalid type: string \"x\"; allowed: a whole number from 0\n"
+    );
+    assert_eq!((done.code, done.stderr), (2, told));
     let twice = ["--width", "4", "--width", "5", "--out", "v"];
     bench.refuse(
-        &verilog("axis", &twice),
-        "--width: is 4 and 5; allowed: one width of all words, and others by their names",
+        &verilog("enable_counter", &twice),
+        "--width: is 4 and 5; allowed: one width",
     );
     let done = bench.run(&verilog(
         "axis",
-        &["--width", "half_period=65", "--out", "v"],
+        &["--set", "memory.half_period=65", "--out", "v"],
     ));
     assert_eq!(done.code, 2);
     let problem = "axis: `write_half_period` has 65 bits; a word has 1 to 64";
@@ -224,12 +250,12 @@ fn widths_and_numbers_that_are_not_taken_are_refused() {
 fn widths_are_chosen_by_their_names_and_variants_with_full_widths() {
     let bench = Bench::new();
     let widths = [
-        "--width",
-        "half_period=9",
-        "--width",
-        "address=5",
-        "--with",
-        "1",
+        "--set",
+        "memory.half_period=9",
+        "--set",
+        "memory.address=5",
+        "--set",
+        "variant=literal",
     ];
     bench.succeed(&verilog("axis", &[&widths[..], &["--out", "v"]].concat()));
     let text = bench.read("v/axis.v");
@@ -239,7 +265,10 @@ fn widths_are_chosen_by_their_names_and_variants_with_full_widths() {
     ] {
         assert!(text.contains(port), "{text}");
     }
-    bench.succeed(&verilog("axis", &["--with", "1", "--out", "w"]));
+    bench.succeed(&verilog(
+        "axis",
+        &["--set", "variant=literal", "--out", "w"],
+    ));
     let full = bench.read("w/axis.v");
     assert!(
         full.contains("input  wire [15:0] write_half_period"),
@@ -287,7 +316,7 @@ fn parts_of_another_export_stay() {
     );
     // An export replaces an earlier one of the same circuit that shares nothing.
     let before = bench.read("v/correction.v");
-    bench.succeed(&export("correction", &["--width", "position=20"]));
+    bench.succeed(&export("correction", &["--set", "position=20"]));
     assert_ne!(bench.read("v/correction.v"), before);
     // A file of somebody's own.
     bench.write("v/axis.v", "module axis;\nendmodule\n");
@@ -309,10 +338,13 @@ fn parts_of_another_export_stay() {
     );
     std::fs::remove_file(bench.path("v/axis.v")).unwrap();
     bench.succeed(&export("axis", &["--testbench", "10"]));
-    bench.succeed(&export("axis", &["--width", "9", "--testbench", "10"]));
+    bench.succeed(&export(
+        "axis",
+        &["--set", "memory.half_period=9", "--testbench", "10"],
+    ));
     let list = bench.read("v/axis.f");
     assert!(
-        list.starts_with("// Made by motion-rtl: verilog axis --width 9\n"),
+        list.starts_with("// Made by motion-rtl: verilog axis --set memory.half_period=9\n"),
         "{list}"
     );
     assert!(list.ends_with("\naxis.v\n// axis_tb.v\n"), "{list}");

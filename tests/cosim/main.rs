@@ -2,6 +2,8 @@
 
 mod golden_model;
 mod plotter;
+#[path = "../scaled/mod.rs"]
+mod scaled;
 mod scenario;
 mod simulators;
 mod tools;

@@ -1,8 +1,9 @@
 //! Every circuit of the catalogue, driven with seeded random inputs and resets.
 
+use super::scaled;
 use super::tools::{Simulator, complete, run, write};
 use motion_rtl::check::Drive;
-use motion_rtl::registry::{AnyModel, CATALOGUE, Entry};
+use motion_rtl::registry::{AnyModel, Base, CATALOGUE, Entry};
 use motion_rtl::trace::Clock;
 use rayon::prelude::*;
 use std::fs::File;
@@ -42,7 +43,7 @@ pub fn hold(circuit: &dyn AnyModel, simulator: Simulator, seed: u64, ticks: u64)
 /// The circuit of an entry at several widths, with the ticks it is held for: an odd one where it can
 /// be made so, a middle one, its own.
 fn widths(entry: &Entry) -> Vec<(Box<dyn AnyModel>, u64)> {
-    let made = |width| entry.model(&[width]).filter(|made| made.model().is_ok());
+    let made = |width| scaled::model(entry, width);
     let least = made(3).or_else(|| made(4)).map(|made| (made, FEWER_TICKS));
     let middle = made(8).map(|made| (made, TICKS));
     let own = entry.full();
@@ -73,21 +74,32 @@ fn every_circuit_equals_its_verilog_in_icarus() {
 }
 
 /// Circuits that can be made otherwise than as the catalogue has them at a width.
-const VARIANTS: [(&str, &[u64]); 8] = [
-    ("pulse_generator", &[8, 1]),
-    ("axis", &[8, 1]),
-    ("unit_law", &[8, 1]),
-    ("record_sequencer", &[8, 1]),
-    ("arc_generator", &[8, 0, 1]),
-    ("conventional_pulse_interpolator", &[8, 2, 10, 1]),
-    ("integrator", &[8, 1]),
-    ("integrator", &[8, 2]),
+const VARIANTS: [(&str, &[&str]); 8] = [
+    ("pulse_generator", &["width=8", "variant=literal"]),
+    (
+        "axis",
+        &[
+            "memory.half_period=8",
+            "memory.address=4",
+            "variant=literal",
+        ],
+    ),
+    ("unit_law", &["width=8", "variant=literal"]),
+    (
+        "record_sequencer",
+        &["modulus=8", "samples=8", "data=11", "waits=true"],
+    ),
+    ("arc_generator", &["blend=products", "widths.fraction=5"]),
+    ("conventional_pulse_interpolator", &["arcs=true"]),
+    ("integrator", &["position=8", "rule=truncating"]),
+    ("integrator", &["position=8", "rule=centred"]),
 ];
 
 fn variants() -> impl Iterator<Item = Box<dyn AnyModel>> {
     VARIANTS.into_iter().map(|(name, given)| {
         let entry = motion_rtl::registry::find(name).unwrap();
-        entry.model(given).unwrap()
+        let pairs: Vec<_> = given.iter().map(|pair| pair.parse().unwrap()).collect();
+        entry.made(Base::Small, &pairs).unwrap()
     })
 }
 
@@ -103,11 +115,18 @@ fn the_other_variants_equal_their_verilog_too() {
 #[ignore = "needs Verilator"]
 fn the_top_circuits_equal_their_verilog_in_verilator() {
     let find = |name| motion_rtl::registry::find(name).unwrap();
+    let made = |entry: &Entry, pairs: &[&str]| {
+        let pairs: Vec<_> = pairs.iter().map(|pair| pair.parse().unwrap()).collect();
+        entry.made(Base::Full, &pairs).unwrap()
+    };
     // With memories of few words: of each it compiles a wave.
     let circuits = [
         find("unit_law").full(),
-        find("axis").model(&[16]).unwrap(),
-        find("pulse_interpolator").model(&[16]).unwrap(),
+        made(find("axis"), &["memory.address=4"]),
+        made(
+            find("pulse_interpolator"),
+            &["widths.address=3", "widths.period=16"],
+        ),
         find("controller").full(),
     ];
     for circuit in circuits {

@@ -1,7 +1,7 @@
 //! The circuits in synthesis, and their assertions proved at full width.
 
 use super::tools::{run, write};
-use motion_rtl::registry::{AnyModel, CATALOGUE, Entry};
+use motion_rtl::registry::{AnyModel, Base, CATALOGUE, Entry};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -68,7 +68,7 @@ fn synthesis(old: &str) -> String {
 fn row(entry: &Entry, old: &str) -> String {
     let circuit = entry.full();
     let name = circuit.name();
-    let widths = entry.widths().into_iter();
+    let widths = entry.sizes(Base::Full, &[]).into_iter();
     let widths: Vec<String> = widths
         .map(|(name, bits)| format!("{name} = {bits}"))
         .collect();
@@ -124,20 +124,21 @@ fn induction() -> String {
                  sat -tempinduct -prove-asserts -verify"
             )
         });
-        let proof_width = entry.proof_width.unwrap();
-        let small = entry.make(&[proof_width]).unwrap().invariants();
+        let small = entry.proof(&[]).unwrap().invariants();
+        let [proof_widths, full_widths] = [Base::Small, Base::Full].map(|base| {
+            let sizes = entry.sizes(base, &[]).into_iter();
+            let sizes = sizes.map(|(key, bits)| format!("{key} = {bits}"));
+            match sizes.collect::<Vec<_>>().join(", ") {
+                none if none.is_empty() => "all there is".to_owned(),
+                sizes => sizes,
+            }
+        });
         for property in names {
             assert!(small.iter().any(|invariant| *invariant == property));
-            let widths = |bits: u64| match entry.widths().is_empty() {
-                true => "all there is".to_owned(),
-                false => format!("{bits} bits"),
-            };
-            let full = entry.widths().first().map_or(0, |(_, bits)| *bits as u64);
             let _ = writeln!(
                 text,
                 "| `{name}` | {property} | {} | {} |",
-                widths(proof_width),
-                widths(full)
+                proof_widths, full_widths
             );
         }
     }
@@ -202,20 +203,25 @@ fn refute(circuit: &dyn AnyModel, [from, to]: [&str; 2]) {
 #[test]
 #[ignore = "needs Yosys"]
 fn what_does_not_hold_is_refuted() {
-    let make = |name, given: &[u64]| motion_rtl::registry::find(name).unwrap().model(given);
-    let counter = make("enable_counter", &[8]).unwrap();
+    let make = |name, pairs: &[&str]| {
+        let pairs: Vec<_> = pairs.iter().map(|pair| pair.parse().unwrap()).collect();
+        motion_rtl::registry::find(name)
+            .unwrap()
+            .made(Base::Full, &pairs)
+    };
+    let counter = make("enable_counter", &["width=8"]).unwrap();
     refute(&*counter, ["next >= period", "next > period"]);
     refute(&*counter, ["count <= next", "count <= period"]);
-    let generator = make("pulse_generator", &[16, 0]).unwrap();
+    let generator = make("pulse_generator", &[]).unwrap();
     refute(&*generator, [" && half_period != 16'd0", ""]);
     refute(&*generator, ["pulse && !unit_rst", "pulse"]);
     refute(&*generator, ["next >= half_period", "next == half_period"]);
     let stage = make("sync_stage", &[]).unwrap();
     refute(&*stage, ["pulse && !unit_rst", "pulse"]);
-    let port = make("command_port", &[4]).unwrap();
+    let port = make("command_port", &["address=4", "period=4"]).unwrap();
     refute(&*port, ["pending && !take", "pending"]);
     refute(&*port, ["valid && (ready || now)", "valid && ready"]);
-    let sequencer = make("sequencer", &[8]).unwrap();
+    let sequencer = make("sequencer", &["position=8"]).unwrap();
     refute(&*sequencer, ["way_x < way_y", "way_x <= way_y"]);
     refute(&*sequencer, ["far_x || far_y", "far_x"]);
     refute(
@@ -227,6 +233,6 @@ fn what_does_not_hold_is_refuted() {
     );
     refute(&*sequencer, ["(late || early)", "late"]);
     // The variant that the patent's words give.
-    let literal = make("pulse_generator", &[16, 1]).unwrap();
+    let literal = make("pulse_generator", &["variant=literal"]).unwrap();
     refute(&*literal, ["", ""]);
 }

@@ -3,5 +3,7 @@
 mod compare;
 mod fuzz;
 mod input;
+#[path = "../scaled/mod.rs"]
+mod scaled;
 mod verilog;
 mod waves;

@@ -15,7 +15,8 @@ use crate::hdl::prelude::*;
 /// Step of the angle.
 ///
 /// The difference is valid in the tick after `step`, with `turn`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct AngleStep {
     /// H: width of an angle, in units of 2^−H turn.
     pub width: usize,

@@ -14,7 +14,8 @@ use crate::hdl::prelude::*;
 pub const AXIS_WORD: u64 = 19;
 
 /// Terms of the axis.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct AxisTerms {
     /// C: width of a coefficient.
     pub coefficient: usize,

@@ -22,7 +22,8 @@ use crate::hdl::prelude::*;
 pub const SHARE_WORD: u64 = 10;
 
 /// Points of blends and lines by products.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct BlendPoint {
     /// Widths of points, coefficients, moduli and records.
     pub widths: Widths,

@@ -18,7 +18,8 @@ use crate::circuits::blocks::RecordWord;
 use crate::hdl::prelude::*;
 
 /// Row of a blend, of x, y or z.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct BlendRow {
     /// Widths of points and records.
     pub widths: Widths,

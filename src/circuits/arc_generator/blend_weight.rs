@@ -24,7 +24,8 @@ const POINT: u64 = 2;
 /// Weight of a blend's bend.
 ///
 /// `done` is high 3·(C + 2) + 1 ticks after `step`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct BlendWeight {
     /// C: width of a coefficient; C − 2 bits of it are fraction.
     pub coefficient: usize,

@@ -42,7 +42,8 @@ const ELEMENTS: &[&str] = &[
 /// Conventional generator of arcs, with widths as those of the arc generator.
 ///
 /// An angle has as many bits as a coefficient, and is in units of that part of a turn.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Conventional {
     /// Its widths, by name.
     pub widths: Widths,

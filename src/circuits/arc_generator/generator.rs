@@ -29,7 +29,8 @@ pub(super) const COMMANDS: &[&str] = &["command_x", "command_y", "command_z"];
 ///
 /// The first point of a path is the command one tick after the first sampling time for which it is
 /// ready, [`first`](ArcGenerator::first) ticks after `start`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ArcGenerator {
     /// Its widths, by name.
     pub widths: Widths,

@@ -16,7 +16,8 @@ use super::rotation_row::halved;
 use crate::hdl::prelude::*;
 
 /// Sign of an element's second term.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Sign {
     /// Added.
     #[default]
@@ -28,7 +29,8 @@ pub enum Sign {
 /// Element of the matrix.
 ///
 /// The entry is valid from the tick after the sign bit until the next `copy`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct MatrixElement {
     /// C: width of a coefficient.
     pub coefficient: usize,

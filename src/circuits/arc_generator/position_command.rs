@@ -17,7 +17,8 @@ use crate::circuits::blocks::RecordWord;
 use crate::hdl::prelude::*;
 
 /// Position command.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PositionCommand {
     /// Widths of commands, points and records.
     pub widths: Widths,

@@ -20,7 +20,8 @@ use crate::hdl::prelude::*;
 ///
 /// The new point is valid B + 4 ticks after `step`, where B is the number of fraction bits of a
 /// coefficient: all but two.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Rotation {
     /// Widths of points, coefficients and records.
     pub widths: Widths,

@@ -22,7 +22,8 @@ use crate::hdl::prelude::*;
 pub(super) const ROWS: &[&str] = &["row_x", "row_y", "row_z"];
 
 /// Row of a rotation, for vectors of points and for coefficients.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RotationRow {
     /// Widths of points, coefficients and records.
     pub widths: Widths,

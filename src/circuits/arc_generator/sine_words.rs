@@ -17,7 +17,8 @@ pub const FINE: usize = 6;
 /// Words of sine and cosine.
 ///
 /// The lowest bits are valid in the tick after `copy`, the next a tick later.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct SineWords {
     /// C: width of a coefficient; all bits but two are fraction.
     pub coefficient: usize,

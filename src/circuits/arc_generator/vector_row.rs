@@ -20,7 +20,8 @@ use crate::hdl::prelude::*;
 pub const VECTOR_WORD: u64 = 16;
 
 /// Row of a rotation by a matrix that changes.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct VectorRow {
     /// Widths of points, coefficients and records.
     pub widths: Widths,

@@ -4,7 +4,8 @@ use super::PositionCommand;
 use crate::circuits::blocks::{DifferenceEngine, RecordSequencer, difference_column};
 
 /// Widths in bits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Widths {
     /// W: position commands, signed, in counts.
     pub position: usize,

@@ -15,7 +15,8 @@ use crate::hdl::prelude::*;
 /// Control for coefficients with B = `coefficient` − 2 fraction bits.
 ///
 /// `done` is high B + 4 ticks after `step`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CoefficientControl {
     /// Width of a coefficient in bits, 3 to 63.
     pub coefficient: usize,

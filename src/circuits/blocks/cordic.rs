@@ -16,7 +16,8 @@ use crate::hdl::prelude::*;
 /// CORDIC.
 ///
 /// `done` is high H + 1 ticks after `start`, with as many iterations as the angle has bits.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Cordic {
     /// R: width of a coordinate in bits.
     pub radius: usize,

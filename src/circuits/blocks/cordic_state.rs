@@ -26,7 +26,8 @@ pub const GAIN: f64 = 1.646_760_258_121_065_6;
 ///
 /// There are as many iterations as the angle has bits: the remaining angle is then below one of
 /// its units.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CordicState {
     /// R: width of a coordinate in bits.
     pub radius: usize,

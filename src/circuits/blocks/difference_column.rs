@@ -19,7 +19,8 @@ use crate::hdl::Registers;
 use crate::hdl::prelude::*;
 
 /// Widths of a column and of the records it is loaded from, in bits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Widths {
     /// A whole.
     pub whole: usize,
@@ -40,7 +41,8 @@ impl Default for Widths {
 }
 
 /// Column of a number.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct DifferenceColumn {
     /// Widths of the number and of the records.
     pub widths: Widths,

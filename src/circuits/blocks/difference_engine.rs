@@ -21,7 +21,8 @@ use crate::hdl::prelude::*;
 /// Difference engine of a coordinate.
 ///
 /// The value of the next sample is valid in the tick after `step`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct DifferenceEngine {
     /// Widths of its numbers and of the records.
     pub widths: Widths,

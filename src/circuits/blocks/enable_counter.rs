@@ -19,7 +19,8 @@
 use crate::hdl::prelude::*;
 
 /// Enable counter; `enable` is high in the last tick of every `period` ticks.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct EnableCounter {
     /// Width of the count in bits.
     pub width: usize,

@@ -23,7 +23,8 @@ const DIVIDE: u64 = 2;
 /// Multiplier-divider of words of Q = `word` bits by a multiplier of M = `multiplier` bits.
 ///
 /// `done` is high M + Q + 1 ticks after `start`, M + 1 with `product_only`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct MulDiv {
     /// M: width of the multiplier in bits.
     pub multiplier: usize,

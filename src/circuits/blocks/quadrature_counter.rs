@@ -27,7 +27,8 @@ const PRESENT: usize = 1;
 const PREVIOUS: usize = 2;
 
 /// Quadrature counter with a position that wraps.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct QuadratureCounter {
     /// Width of the position in bits.
     pub width: usize,

@@ -28,7 +28,8 @@ pub(crate) const ARC: u64 = 2;
 /// Memory of 2^`record` records.
 ///
 /// `load` is high from the second tick after `take` on, for 32 ticks; `loaded` in the tick after them.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RecordMemory {
     /// Width of a record's number in bits.
     pub record: usize,

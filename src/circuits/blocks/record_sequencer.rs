@@ -31,7 +31,8 @@ const ROTATE: u64 = 3;
 pub(crate) const READY: u64 = 4;
 
 /// Sequencer of records.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RecordSequencer {
     /// Width of a modulus in bits.
     pub modulus: usize,

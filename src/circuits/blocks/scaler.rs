@@ -18,7 +18,8 @@ use crate::hdl::prelude::*;
 /// Scaler.
 ///
 /// `done` is high K + 1 ticks after `start`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Scaler {
     /// K: width of a gain, 2 to 64.
     pub gain: usize,

@@ -10,7 +10,8 @@
 use crate::hdl::prelude::*;
 
 /// Shifter for signed words.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Shifter {
     /// Width of a word in bits.
     pub width: usize,

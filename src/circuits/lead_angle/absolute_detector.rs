@@ -19,7 +19,8 @@ use crate::hdl::prelude::*;
 ///
 /// A word at the pins from tick n on, with its strobe, is in `position` from n + 4 on, with `sample`
 /// in that tick.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct AbsoluteDetector {
     /// Width of the encoder's word.
     pub code: usize,

@@ -34,7 +34,8 @@ pub enum Comparing {
 }
 
 /// Comparator 19; `control` shows in the tick after `fire`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Comparator {
     /// Width of a position.
     pub position: usize,

@@ -34,7 +34,8 @@ use crate::hdl::prelude::*;
 /// Compensator.
 ///
 /// `fire` is high one tick after the tick of CK in which a position is present, `brake` two.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Compensator {
     /// Its widths.
     pub widths: Widths,
@@ -55,7 +56,7 @@ impl Compensator {
             ..
         } = self.widths;
         match &self.lead_from {
-            LeadFrom::Time(memory, form) => {
+            LeadFrom::Time { memory, form } => {
                 LeadSource::Time(form.time_lead(*memory, stages, position))
             }
             LeadFrom::Speed => LeadSource::Speed(SpeedLead { position, gate }),
@@ -70,7 +71,7 @@ impl Compensator {
     /// The form of its lead of a time; of another lead that of the figures.
     fn form(&self) -> LeadForm {
         match self.lead_from {
-            LeadFrom::Time(_, form) => form,
+            LeadFrom::Time { form, .. } => form,
             _ => LeadForm::default(),
         }
     }
@@ -255,16 +256,28 @@ impl Circuit for Compensator {
 
     fn name(&self) -> &'static str {
         match self.lead_from {
-            LeadFrom::Time(Memory::ShiftRegister, _) => Self::NAME,
-            LeadFrom::Time(Memory::Ram, _) => "ram_compensator",
+            LeadFrom::Time {
+                memory: Memory::ShiftRegister,
+                ..
+            } => Self::NAME,
+            LeadFrom::Time {
+                memory: Memory::Ram,
+                ..
+            } => "ram_compensator",
             LeadFrom::Speed | LeadFrom::Table(_) => "conventional_compensator",
         }
     }
 
     fn about(&self) -> &'static str {
         match self.lead_from {
-            LeadFrom::Time(Memory::ShiftRegister, _) => Self::ABOUT,
-            LeadFrom::Time(Memory::Ram, _) => "lead-angle compensator with its history in a RAM",
+            LeadFrom::Time {
+                memory: Memory::ShiftRegister,
+                ..
+            } => Self::ABOUT,
+            LeadFrom::Time {
+                memory: Memory::Ram,
+                ..
+            } => "lead-angle compensator with its history in a RAM",
             LeadFrom::Speed => "compensator whose lead is measured speed times a parameter",
             LeadFrom::Table(_) => "compensator whose lead is read from a memory by the speed",
         }

@@ -15,7 +15,8 @@
 use crate::hdl::prelude::*;
 
 /// Completion detector 26; `complete` shows in the tick after the sample that decides.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CompletionDetector {
     /// Width of a position.
     pub position: usize,

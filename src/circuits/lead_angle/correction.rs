@@ -38,7 +38,8 @@ pub enum Function {
 ///
 /// `corrected` comes a tick after `complete`, or, where something is learned by a division,
 /// [`latency`](Correction::latency) ticks after it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Correction {
     /// Stages of history.
     pub stages: usize,

@@ -19,7 +19,8 @@ use super::codes;
 use crate::hdl::prelude::*;
 
 /// Correction arithmetic 28.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CorrectionArithmetic {
     /// Stages of history: times end at ten times as many.
     pub stages: usize,

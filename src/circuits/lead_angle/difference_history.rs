@@ -20,7 +20,8 @@ use crate::hdl::prelude::*;
 /// Position history whose tap takes a difference.
 ///
 /// A position that is present in the tick of CK is at the outputs in the next tick.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct DifferenceHistory {
     /// Number of samples kept.
     pub stages: usize,

@@ -15,7 +15,8 @@ use super::codes::{tap_width, time_width};
 use crate::hdl::prelude::*;
 
 /// Source of N.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Division {
     /// The logic circuit 13, from Δt.
     #[default]
@@ -27,7 +28,8 @@ pub enum Division {
 }
 
 /// Divided time data. Combinational.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct DividedTime {
     /// Stages of history.
     pub stages: usize,

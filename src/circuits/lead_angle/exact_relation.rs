@@ -17,7 +17,8 @@
 use crate::hdl::prelude::*;
 
 /// Divisor of the exact relation.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ExactRelation {
     /// Width of a position.
     pub position: usize,

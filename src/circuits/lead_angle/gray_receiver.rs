@@ -19,7 +19,8 @@
 use crate::hdl::prelude::*;
 
 /// Receiver of Gray words; a word at the pins from tick n on, with its strobe, is taken in n + 3.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct GrayReceiver {
     /// Width of the encoder's word.
     pub code: usize,

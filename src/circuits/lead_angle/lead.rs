@@ -17,7 +17,8 @@ use super::LeadProducts;
 use crate::hdl::prelude::*;
 
 /// Subtractor and multiplier. Combinational.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Lead {
     /// Width of a position.
     pub position: usize,

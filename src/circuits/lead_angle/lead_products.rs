@@ -16,7 +16,8 @@ pub use super::lead::In;
 use crate::hdl::prelude::*;
 
 /// Prediction from two products. Combinational.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LeadProducts {
     /// Width of a position.
     pub position: usize,

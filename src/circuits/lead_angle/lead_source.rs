@@ -69,10 +69,16 @@ impl LeadForm {
 }
 
 /// Source of a compensator's lead.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum LeadFrom {
-    /// The time Δt, with the memory of the history, in one of the equal forms.
-    Time(Memory, LeadForm),
+    /// The time Δt.
+    Time {
+        /// Memory of the history.
+        memory: Memory,
+        /// One of the equal forms.
+        form: LeadForm,
+    },
     /// The speed times a parameter, as in Fig. 7.
     Speed,
     /// The speed by a memory of leads, as in Fig. 7 too.

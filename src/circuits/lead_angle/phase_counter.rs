@@ -27,7 +27,8 @@ use crate::hdl::prelude::*;
 
 /// Phase counter. A crossing at the pin in tick n is latched in n + 3; a period's place is taken two
 /// ticks after 0 phase.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PhaseCounter {
     /// Width of a phase.
     pub phase: usize,

@@ -22,7 +22,8 @@ use crate::hdl::prelude::*;
 ///
 /// A place is as old as its crossing, up to a period of the secondary; from 0 phase to `position` it
 /// takes three ticks.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PhaseDetector {
     /// Width of a phase, and of a place in a pitch.
     pub phase: usize,

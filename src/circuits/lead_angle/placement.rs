@@ -29,7 +29,8 @@ pub enum Placement {
 }
 
 /// Placement of the lead. Combinational.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LeadPlacement {
     /// Width of a position.
     pub position: usize,

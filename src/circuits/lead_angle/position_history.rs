@@ -23,7 +23,8 @@ use crate::hdl::prelude::*;
 /// Position history as a shift register.
 ///
 /// A position that is present in the tick of CK is at the outputs in the next tick.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PositionHistory {
     /// Number of samples kept.
     pub stages: usize,

@@ -17,7 +17,8 @@ use crate::hdl::prelude::*;
 /// Position history in a RAM, which has a word for every tap that there can be.
 ///
 /// A position that is present in the tick of CK is at the outputs in the next tick.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RamHistory {
     /// Number of samples it reaches back.
     pub stages: usize,

@@ -22,7 +22,8 @@ use crate::hdl::prelude::*;
 const FIFTH: u64 = (1 << 17) / 5 + 1;
 
 /// Logic circuit 13. Combinational.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RatioLogic {
     /// Stages of history.
     pub stages: usize,

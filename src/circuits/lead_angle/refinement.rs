@@ -27,7 +27,8 @@ const SECOND: u64 = 2;
 ///
 /// A division begins in the tick of `start`, the second in that of `divider_done`; `done` is high in
 /// the tick after the last one's `divider_done`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Refinement {
     /// Width of a time.
     pub time: usize,

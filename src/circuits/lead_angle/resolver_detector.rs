@@ -22,7 +22,8 @@ use crate::hdl::prelude::*;
 /// Resolver detector, with a position that continues over the pitches.
 ///
 /// From `strobe` to `position` it takes A + 2 ticks, A being the width of an angle.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ResolverDetector {
     /// The converter; a place is as wide as its angle.
     pub converter: TrackingConverter,

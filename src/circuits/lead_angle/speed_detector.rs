@@ -14,7 +14,8 @@ use super::TableLead;
 use crate::hdl::prelude::*;
 
 /// Speed detector. A position that is present in the tick of CK is at `present` in the next tick.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct SpeedDetector {
     /// Width of a position.
     pub position: usize,

@@ -14,7 +14,8 @@ use crate::hdl::prelude::*;
 
 /// Conventional lead. A position that is present in the tick of CK is at `present` in the next
 /// tick.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct SpeedLead {
     /// Width of a position.
     pub position: usize,

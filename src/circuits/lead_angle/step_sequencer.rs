@@ -26,7 +26,8 @@ use crate::hdl::prelude::*;
 
 /// Step sequencer. `load` shows in the tick after `run`, `drive` in the tick after the first sample
 /// from two ticks after `run` on; it goes in the tick after `control` came.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct StepSequencer {
     /// Width of a step number.
     pub step: usize,

@@ -28,7 +28,8 @@ pub enum Sign {
 }
 
 /// Error and overrun; `overrun` counts from the tick after `fire` on.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct StopError {
     /// Width of a position.
     pub position: usize,

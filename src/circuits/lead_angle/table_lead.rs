@@ -20,13 +20,14 @@ pub use super::speed_detector::In;
 use crate::hdl::prelude::*;
 
 /// Leads by speed, as a memory holds them: f(ν) at every 2^`fraction` counts.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LeadTable {
     /// Leads in counts, from a speed of 0 up; the upper half is of negative speeds, as two's
-    /// complement has them.
-    pub leads: Image,
-    /// Increase of the lead from each word to the next.
-    pub increments: Image,
+    /// complement has them. A power of two in number.
+    pub leads: Vec<i64>,
+    /// Growth from each lead to the next word's; as many as there are leads.
+    pub increments: Vec<i64>,
     /// Bits of a speed below the address.
     pub fraction: usize,
 }
@@ -50,7 +51,8 @@ impl LeadTable {
         };
         // In two's complement, modulo 2^position as a position is.
         let words = |value: &dyn Fn(usize) -> i64| {
-            Image::from_fn(address, position, |word| (value(word) as u64).cut(position))
+            let words = (0..1 << address).map(|word| value(word).cut(position));
+            words.collect()
         };
         let grows = |speed: i64| lead(speed + (1 << fraction)) - lead(speed);
         LeadTable {
@@ -60,15 +62,21 @@ impl LeadTable {
         }
     }
 
+    /// Width of an address.
+    fn address(&self) -> usize {
+        log2(self.leads.len())
+    }
+
     /// Bits of a speed that the memory covers.
     fn bits(&self) -> usize {
-        self.leads.address() + self.fraction
+        self.address() + self.fraction
     }
 }
 
 /// Lead from a memory. A position that is present in the tick of CK is at `present` in the next
 /// tick.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TableLead {
     /// Width of a position.
     pub position: usize,
@@ -79,29 +87,25 @@ pub struct TableLead {
 }
 
 impl TableLead {
-    /// The first word, as a lead.
-    fn at_rest(&self) -> i64 {
-        self.first(&self.table.leads)
+    /// Contents of a memory of leads or increments.
+    fn image(&self, words: &[i64]) -> Image {
+        let words = words.iter().map(|word| (*word as u64).cut(self.position));
+        Image::of(self.table.address(), self.position, words)
     }
+}
 
-    /// Returns the first increment.
-    fn increment_at_rest(&self) -> i64 {
-        self.first(&self.table.increments)
-    }
-
-    fn first(&self, words: &Image) -> i64 {
-        let word = words.get(0).unwrap_or(0) as i64;
-        word.cut(self.position)
-    }
+/// The word at a speed of 0.
+fn first(words: &[i64]) -> i64 {
+    words.first().copied().unwrap_or(0)
 }
 
 signals! { for TableLead as c;
     /// Output registers of the memory.
     pub struct Reg {
         /// The lead of the last word's speed at or below ν.
-        base: I(c.position) as Analog = c.at_rest(),
+        base: I(c.position) as Analog = first(&c.table.leads),
         /// Increase of the lead up to the next word's speed.
-        increment: I(c.position) = c.increment_at_rest(),
+        increment: I(c.position) = first(&c.table.increments),
         /// Fraction of the step to the next word's speed, in 1/2^`fraction`.
         part: U(c.table.fraction) = 0,
     }
@@ -127,7 +131,7 @@ signals! { for TableLead as c;
         /// Its bits.
         word: U(c.table.bits()),
         /// The word that is read.
-        address: U(c.table.leads.address()),
+        address: U(c.table.address()),
         /// `part`, with room for a sign.
         share: I(c.table.fraction + 1),
         /// Growth times that.
@@ -148,13 +152,24 @@ impl Circuit for TableLead {
             increments,
             fraction,
         } = &self.table;
-        if leads.address() != increments.address() || leads.address() == 0 {
-            return Some("leads and increments have the same address of 1 bit or more".into());
+        let words = leads.len();
+        if words != increments.len() || words < 2 || !words.is_power_of_two() {
+            let increments = increments.len();
+            return Some(format!(
+                "{words} leads and {increments} increments; allowed: as many of both, 2, 4, 8, …"
+            ));
         }
         if *fraction == 0 || self.table.bits() > self.position {
             return Some(format!(
                 "address and fraction, of 1 bit or more, have {} bits together, a position {}",
                 self.table.bits(),
+                self.position
+            ));
+        }
+        let wide = |word: &&i64| word.cut(self.position) != **word;
+        if let Some(word) = leads.iter().chain(increments).find(wide) {
+            return Some(format!(
+                "a position of {} bits has no {word}",
                 self.position
             ));
         }
@@ -177,8 +192,8 @@ impl Circuit for TableLead {
         let end = way.is_negative().mux(I::new(-greatest - 1, bits), greatest);
         let held = covered.mux(cut, end);
         let word = held.unsigned();
-        let address = word.slice(fraction, leads.address());
-        let read = |words: &Image| words.rom(address).signed();
+        let address = word.slice(fraction, self.table.address());
+        let read = |words: &[i64]| self.image(words).rom(address).signed();
         let share = q.part.resize(fraction + 1).signed();
         let product = q.increment.times(share, self.position + fraction + 1);
         let edge = Reg {
@@ -210,9 +225,7 @@ impl Specified for TableLead {
             increments,
             fraction,
         } = &self.table;
-        let unused = 64 - self.position;
-        let signed = |word: u64| i128::from((word << unused) as i64 >> unused);
-        let words = |image: &Image| image.iter().map(signed).collect::<Vec<_>>();
+        let words = |words: &[i64]| words.iter().copied().map(i128::from).collect::<Vec<_>>();
         let (leads, increments) = (words(leads), words(increments));
         let (range, spacing) = (1i128 << self.position, 1i128 << fraction);
         Invariants::<Self>::new().always(

@@ -14,7 +14,8 @@ use super::position_history::stored;
 use crate::hdl::prelude::*;
 
 /// Target setter 18; a step is at the outputs in the tick after `load`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TargetSetter {
     /// Width of a step number.
     pub step: usize,

@@ -18,7 +18,8 @@
 use crate::hdl::prelude::*;
 
 /// Time data supply 21; a time is at the output in the tick after `load`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TimeData {
     /// Width of a step number.
     pub step: usize,
@@ -38,7 +39,7 @@ impl TimeData {
 
     /// The ROM with as many words as there are steps.
     fn contents(&self) -> Image {
-        Image::of(self.step, self.time, self.rom.iter())
+        self.rom.resized(self.step, self.time)
     }
 }
 

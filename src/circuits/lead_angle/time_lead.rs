@@ -20,7 +20,8 @@ use super::{
 use crate::hdl::prelude::*;
 
 /// The two forms of the memory 11.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Memory {
     /// A shift register with taps.
     #[default]
@@ -30,7 +31,8 @@ pub enum Memory {
 }
 
 /// Method of the prediction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Form {
     /// Subtractor 15 after the take-out 14, then multiplier 16.
     #[default]
@@ -77,7 +79,8 @@ choice! {
 ///
 /// A position that is present in the tick of CK is at the outputs, with its lead, in the next
 /// tick.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TimeLead {
     /// Stages of history.
     pub stages: usize,

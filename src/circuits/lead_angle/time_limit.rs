@@ -17,7 +17,8 @@ use super::codes::tap_width;
 use crate::hdl::prelude::*;
 
 /// Limit of times that are taps. Combinational.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TimeLimit {
     /// Stages of history: the longest time in CKs.
     pub stages: usize,

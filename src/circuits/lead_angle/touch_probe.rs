@@ -15,7 +15,8 @@
 use crate::hdl::prelude::*;
 
 /// Touch probe; `taken` and the count show in the tick after the rise of `effect`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TouchProbe {
     /// Width of a position.
     pub position: usize,

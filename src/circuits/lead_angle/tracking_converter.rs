@@ -23,7 +23,8 @@ use crate::hdl::prelude::*;
 ///
 /// `take` is high A + 1 ticks after `strobe`, for the angle that is valid until then: the
 /// prediction of the conversions before for this one.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TrackingConverter {
     /// S: width of the A/D converters' words, at most A.
     pub converter: usize,

@@ -28,7 +28,8 @@ use crate::hdl::prelude::*;
 
 /// Tracking loop. The result of a conversion is in `phase` from the tick after `done` on, for the
 /// next one.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TrackingLoop {
     /// A: width of an angle, in units of 2^−A pitch.
     pub angle: usize,

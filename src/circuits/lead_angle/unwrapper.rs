@@ -20,7 +20,8 @@
 use crate::hdl::prelude::*;
 
 /// Unwrapper; a place taken in tick n is in `position` from n + 1 on, with `sample` in that tick.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Unwrapper {
     /// Width of a place.
     pub place: usize,

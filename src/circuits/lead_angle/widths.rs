@@ -3,7 +3,8 @@
 use super::{Comparing, Detector, Function, Placement, Sign, codes};
 
 /// Widths of a compensator.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Widths {
     /// Stages of history.
     pub stages: usize,
@@ -51,7 +52,8 @@ impl Default for Widths {
 }
 
 /// Variants chosen when a compensator is built.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Variant {
     /// Value that the lead is added to.
     pub placement: Placement,

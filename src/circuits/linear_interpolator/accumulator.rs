@@ -23,7 +23,7 @@ use crate::hdl::prelude::*;
 use serde::Deserialize;
 
 /// Rounding rule of the integrator 24, which determines the remainder.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rule {
     /// Towards minus infinity: the remainder has the sign of the divisor. A return stroke meets the
@@ -49,7 +49,8 @@ impl Rule {
 }
 
 /// Registers of the integrator 24.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Accumulator {
     /// Width of a position in bits; the divider has twice as many.
     pub position: usize,

@@ -17,7 +17,8 @@ use super::wrapped;
 use crate::hdl::prelude::*;
 
 /// Axis switch; a command shows in the tick after `load`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct AxisSwitch {
     /// Width of a position in bits.
     pub position: usize,

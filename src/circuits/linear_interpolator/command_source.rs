@@ -15,6 +15,8 @@ use crate::hdl::prelude::*;
 
 choice! {
     /// Source of the position commands.
+    #[derive(serde::Serialize, serde::Deserialize)]
+    #[serde(rename_all = "snake_case")]
     pub enum CommandSource as CommandPart {
         /// On a straight line.
         Linear(LinearInterpolator),

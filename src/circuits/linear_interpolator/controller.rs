@@ -18,7 +18,8 @@ use crate::circuits::blocks::{EnableCounter, enable_counter};
 use crate::hdl::prelude::*;
 
 /// Controller 1 around a source of commands.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Controller {
     /// Widths of the position loops; that of a position is given by the commands.
     pub loops: LoopWidths,
@@ -84,7 +85,7 @@ signals! { for Controller as c;
         /// Position loop of Y.
         pub loop_y: Part<PositionLoop>(PositionLoop { widths: c.loops() }),
         /// Cycle gate.
-        pub gate: Part<CycleGate>(CycleGate),
+        pub gate: Part<CycleGate>(CycleGate {}),
     }
     /// Output ports.
     pub struct Net {

@@ -20,7 +20,8 @@ use super::*;
 use crate::hdl::prelude::*;
 
 /// Conventional system, with widths as those of the linear interpolator.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Conventional {
     /// Its widths, by name.
     pub widths: Widths,

@@ -13,8 +13,9 @@
 use crate::hdl::prelude::*;
 
 /// Cycle gate, with a tick of latency.
-#[derive(Debug, Clone, Default)]
-pub struct CycleGate;
+#[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CycleGate {}
 
 signals! { for CycleGate as c;
     /// Input ports.

@@ -16,7 +16,8 @@ use super::wrapped;
 use crate::hdl::prelude::*;
 
 /// Differentiator 21; without latency.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Differentiator {
     /// Width of a position in bits.
     pub position: usize,

@@ -20,7 +20,8 @@ use crate::hdl::prelude::*;
 ///
 /// `valid` comes [`latency`](Integrator::latency) ticks after `start`: one bit of the product and
 /// one bit of the quotient a tick.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Integrator {
     /// Width of a position in bits; the divider has twice as many.
     pub position: usize,

@@ -15,7 +15,8 @@ use super::*;
 use crate::hdl::prelude::*;
 
 /// Linear interpolator.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LinearInterpolator {
     /// Its widths, by name.
     pub widths: Widths,

@@ -14,7 +14,8 @@ use crate::hdl::prelude::*;
 use crate::hdl::{Registers, Sample};
 
 /// An integrator with its increments added up.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LineLaw {
     /// Integrator 24.
     pub integrator: Integrator,

@@ -18,7 +18,8 @@ use crate::circuits::blocks::{MulDiv, mul_div};
 use crate::hdl::prelude::*;
 
 /// Position pattern generator 14.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PatternGenerator {
     /// Width of a position in bits, the P of its ports.
     pub position: usize,

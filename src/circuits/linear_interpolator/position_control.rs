@@ -23,7 +23,8 @@ use super::LoopWidths;
 use crate::hdl::prelude::*;
 
 /// Position control.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PositionControl {
     /// Its widths, by name.
     pub widths: LoopWidths,

@@ -19,7 +19,8 @@ use crate::circuits::blocks::{QuadratureCounter, quadrature_counter};
 use crate::hdl::prelude::*;
 
 /// Position loop.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PositionLoop {
     /// Its widths, by name.
     pub widths: LoopWidths,

@@ -34,7 +34,7 @@ const BEGIN: u64 = 4;
 const RUN: u64 = 5;
 
 /// Axis that gets the position pattern, and leads the other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MasterAxis {
     /// The one with the greater distance, X where they are alike (claim 2, ¶0014).
@@ -79,7 +79,8 @@ impl MasterAxis {
 }
 
 /// Sequencer. `start` is high four ticks after a target is available, `advance` a tick after `scan`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Sequencer {
     /// Width of a position in bits.
     pub position: usize,

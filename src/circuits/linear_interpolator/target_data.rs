@@ -31,7 +31,8 @@ const DECELERATIONS: &[&str] = &["decelerations", "decel_y"];
 ///
 /// A target is available in the tick after its push, and is at the outputs from the tick after its
 /// pop until the next.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TargetData {
     /// Its widths, by name.
     pub widths: Widths,

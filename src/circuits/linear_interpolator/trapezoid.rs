@@ -43,7 +43,8 @@ const STEADY: u64 = 1;
 const DECELERATE: u64 = 2;
 
 /// Control of the position pattern generator 14.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Trapezoid {
     /// Width of a position in bits, the P of its ports.
     pub position: usize,

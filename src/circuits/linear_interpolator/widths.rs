@@ -4,7 +4,8 @@
 use super::PatternGenerator;
 
 /// Widths of the circuits that make position commands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Widths {
     /// An address in the buffer of targets, which holds 2^`address` − 1 of them.
     pub address: usize,
@@ -39,7 +40,8 @@ impl Default for Widths {
 }
 
 /// Widths of a position loop.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LoopWidths {
     /// A position.
     pub position: usize,

@@ -23,7 +23,8 @@ use crate::circuits::trajectory_controller::{self, TrajectoryController, control
 use crate::hdl::prelude::*;
 
 /// Two steppers, two servos and a pen lift on one clock.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Machine {
     /// Pulses of the step motors.
     pub pulse_interpolator: Group,
@@ -61,7 +62,10 @@ impl Machine {
             ),
             lead_angle: Compensator {
                 widths: Default::default(),
-                lead_from: LeadFrom::Time(history, LeadForm::Embodiment),
+                lead_from: LeadFrom::Time {
+                    memory: history,
+                    form: LeadForm::Embodiment,
+                },
                 variant: Default::default(),
                 rom: lead_times,
             },

@@ -16,7 +16,8 @@
 use crate::hdl::prelude::*;
 
 /// Join of two distances. A command shows one tick after `take`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CommandJoin {
     /// Width of the distance on lines, and of a command.
     pub line: usize,

@@ -17,7 +17,8 @@ use crate::hdl::prelude::*;
 
 /// Four enable counters. Periods of as many ticks as a word holds, in any ratio; all begin at
 /// power-on.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Enables {
     /// Width of the counters in bits.
     pub width: usize,

@@ -21,7 +21,8 @@ use crate::hdl::prelude::*;
 pub const STATES: &[&str] = &["IDLE", "RUN"];
 
 /// Address sequencer 50; registers change only at RST.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct AddressSequencer {
     /// Width of an address in bits.
     pub width: usize,

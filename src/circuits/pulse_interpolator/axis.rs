@@ -15,7 +15,8 @@ use super::{pattern_memory, pulse_generator, sync_stage};
 use crate::hdl::prelude::*;
 
 /// One axis, with the widths of its memory.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Axis {
     /// Pattern memory 10.
     pub memory: PatternMemory,
@@ -47,7 +48,7 @@ signals! { for Axis as c;
             variant: c.variant,
         }),
         /// Sync stage 40.
-        pub sync: Part<SyncStage>(SyncStage),
+        pub sync: Part<SyncStage>(SyncStage {}),
     }
     /// Output ports.
     pub struct Net {

@@ -31,7 +31,8 @@ const TURN: u64 = 1;
 const OFFER: u64 = 2;
 
 /// Circular interpolator in front of a motor controller of 2 axes or more.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CircularInterpolator {
     /// Motor controller that takes the moves.
     pub controller: MotorController,

@@ -21,7 +21,8 @@ use super::Pattern;
 use crate::hdl::prelude::*;
 
 /// Command port of the control computer 2, one command deep.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CommandPort {
     /// Width of an address in bits.
     pub address: usize,

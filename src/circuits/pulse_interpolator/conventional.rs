@@ -20,7 +20,8 @@ use crate::circuits::blocks::{Cordic, EnableCounter, MulDiv, cordic, enable_coun
 use crate::hdl::prelude::*;
 
 /// Conventional device of 1 to 8 axes.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Conventional {
     /// Number of axes.
     pub axes: usize,

@@ -29,7 +29,8 @@ pub(super) const DIR: &[&str] = &[
 ];
 
 /// 1 to 8 axes.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Group {
     /// Number of axes.
     pub axes: usize,

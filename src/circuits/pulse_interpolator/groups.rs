@@ -17,12 +17,15 @@ use super::group::{self, In as Control, Net as Lines};
 use super::pattern_memory::Contents;
 use super::{Group, Variant, Widths};
 use crate::hdl::prelude::*;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// Names of the groups.
 const GROUPS: [&str; 2] = ["first", "second"];
 
 /// Two groups with words of the same widths.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Groups {
     /// Axes of the first group.
     pub first_axes: usize,
@@ -33,9 +36,20 @@ pub struct Groups {
     /// Variant of RST.
     pub variant: Variant,
     /// Unit time of each at power-on, in ticks.
+    #[serde(deserialize_with = "both")]
     pub periods: [u64; 2],
     /// Contents of the pattern memories of each at power-on, axis by axis.
+    #[serde(deserialize_with = "both")]
     pub memories: [Vec<Contents>; 2],
+}
+
+/// Reads a list of two; an array by itself would drop what is behind.
+fn both<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<[T; 2], D::Error> {
+    let values: Vec<T> = Vec::deserialize(from)?;
+    let count = values.len();
+    values
+        .try_into()
+        .map_err(|_| D::Error::invalid_length(count, &"a list of two"))
 }
 
 impl Groups {

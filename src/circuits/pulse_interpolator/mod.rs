@@ -67,7 +67,8 @@ pub const AXES_MAX: usize = 8;
 pub const AXIS_NAMES: [&str; AXES_MAX] = ["x", "y", "z", "a", "b", "c", "u", "v"];
 
 /// Registers that RST clears.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Variant {
     /// The reference-clock counter 201, the toggle of the comparator 202 and the flip-flop 40.
     #[default]
@@ -77,7 +78,8 @@ pub enum Variant {
 }
 
 /// A pattern in the memory: its addresses, its end, and its unit time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Pattern {
     /// Address of its first word.
     pub base: u64,

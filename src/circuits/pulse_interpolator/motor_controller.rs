@@ -39,7 +39,8 @@ const LENGTH: u64 = 2;
 const PREPARED: u64 = 3;
 
 /// Widths of the conventional device in bits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ConventionalWidths {
     /// Steps of a move, without their sign.
     pub distance: usize,
@@ -72,7 +73,8 @@ impl ConventionalWidths {
 }
 
 /// Motor controller 5 of 1 to 8 axes.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct MotorController {
     /// Number of axes.
     pub axes: usize,

@@ -21,12 +21,19 @@ use super::Widths;
 use crate::hdl::prelude::*;
 
 /// Contents of an axis's memory at power-on.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Contents {
     /// Half-periods, one word per unit time.
     pub half_periods: Image,
-    /// Directions, one bit per unit time.
+    /// Directions, one bit per unit time; left out in a configuration, all up.
+    #[serde(default = "upwards")]
     pub directions: Image,
+}
+
+/// Directions of an axis that never goes down.
+fn upwards() -> Image {
+    Image::new(0, 1)
 }
 
 impl Contents {
@@ -39,22 +46,9 @@ impl Contents {
     }
 }
 
-/// Returns the words in an image of other widths; the image unchanged if a word would be lost.
-fn fitted(image: &Image, address: usize, width: usize) -> Image {
-    if (image.address(), image.width()) == (address, width) {
-        return image.clone();
-    }
-    let mut words = image.iter();
-    let fitted = Image::from_fn(address, width, |_| words.next().unwrap_or(0).cut(width));
-    let lost = |(place, word)| word != 0 && fitted.get(place) != Some(word);
-    match image.iter().enumerate().any(lost) {
-        true => image.clone(),
-        false => fitted,
-    }
-}
-
 /// Pattern memory 10 of one axis.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PatternMemory {
     /// Width of a half-period in bits.
     pub half_period: usize,
@@ -85,8 +79,8 @@ impl PatternMemory {
             directions,
         } = &self.contents;
         Contents {
-            half_periods: fitted(half_periods, self.address, self.half_period),
-            directions: fitted(directions, self.address, 1),
+            half_periods: half_periods.resized(self.address, self.half_period),
+            directions: directions.resized(self.address, 1),
         }
     }
 }

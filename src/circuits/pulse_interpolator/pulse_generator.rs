@@ -20,7 +20,8 @@ use super::Variant;
 use crate::hdl::prelude::*;
 
 /// Pulse generator 20.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PulseGenerator {
     /// Width of a half-period in bits.
     pub width: usize,

@@ -18,7 +18,8 @@
 use crate::hdl::prelude::*;
 
 /// Pulse generator 6x, 6y.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PulseTrain {
     /// Width of a half-period in bits.
     pub half_period: usize,

@@ -11,8 +11,9 @@
 use crate::hdl::prelude::*;
 
 /// Sync stage 40: one tick of latency, low in the first tick of every unit time.
-#[derive(Debug, Clone, Default)]
-pub struct SyncStage;
+#[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SyncStage {}
 
 signals! { for SyncStage as c;
     /// Input ports.

@@ -13,7 +13,8 @@ use crate::circuits::blocks::{EnableCounter, enable_counter};
 use crate::hdl::prelude::*;
 
 /// Unit times of free data.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct UnitLaw {
     /// Width of half-period and T in bits.
     pub width: usize,
@@ -47,7 +48,7 @@ signals! { for UnitLaw as c;
         /// Pulse generator 20.
         pub generator: Part<PulseGenerator>(PulseGenerator { width: c.width, variant: c.variant }),
         /// Sync stage 40.
-        pub sync: Part<SyncStage>(SyncStage),
+        pub sync: Part<SyncStage>(SyncStage {}),
     }
     /// Nets.
     pub struct Net {

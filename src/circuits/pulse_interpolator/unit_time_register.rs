@@ -17,7 +17,8 @@
 use crate::hdl::prelude::*;
 
 /// Shadow and active register of T.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct UnitTimeRegister {
     /// Width of T in bits.
     pub width: usize,

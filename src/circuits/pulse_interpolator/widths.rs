@@ -1,7 +1,8 @@
 //! Widths of the pulse interpolator's words.
 
 /// Widths of a group in bits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Widths {
     /// A half-period.
     pub half_period: usize,

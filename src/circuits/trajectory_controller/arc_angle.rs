@@ -27,7 +27,8 @@ pub const EXTRA: usize = 4;
 /// Angle from an offset and a curvature.
 ///
 /// `done` is high M + 1 ticks after `start`, and as many more as `shift` says.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ArcAngle {
     /// Its widths.
     pub widths: PointWidths,

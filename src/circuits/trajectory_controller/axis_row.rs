@@ -19,7 +19,8 @@ use super::widths::PointWidths;
 use crate::hdl::prelude::*;
 
 /// Row of an axis.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct AxisRow {
     /// Its widths.
     pub widths: PointWidths,

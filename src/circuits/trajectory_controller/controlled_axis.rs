@@ -15,7 +15,8 @@ use super::{ReferenceModel, Servo, VectorCorrection, reference_model, servo, vec
 use crate::hdl::prelude::*;
 
 /// Axis of the trajectory controller.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ControlledAxis {
     /// Servo control 6, 7 (11); the servo response equals its model.
     pub servo: Servo,

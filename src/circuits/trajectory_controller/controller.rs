@@ -29,7 +29,8 @@ use crate::hdl::prelude::*;
 const RECORDS: usize = 4;
 
 /// Trajectory controller.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TrajectoryController {
     /// Its widths, by name.
     pub widths: Widths,

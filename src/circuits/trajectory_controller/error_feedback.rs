@@ -26,7 +26,8 @@ const SPLIT: u64 = 2;
 const SCALE: u64 = 3;
 
 /// Widths of an error feedback in bits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct FeedbackWidths {
     /// W: positions of the motors in counts, signed.
     pub count: usize,
@@ -102,7 +103,8 @@ signals! { for FeedbackWidths as c;
 /// Feedback of the errors of all axes.
 ///
 /// `done` is high [`latency`](ErrorFeedback::latency) ticks after `start`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ErrorFeedback {
     /// Its widths.
     pub widths: FeedbackWidths,

@@ -15,7 +15,8 @@
 use crate::hdl::prelude::*;
 
 /// Clamp of lengths.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LengthClamp {
     /// Width of a length in bits.
     pub width: usize,

@@ -24,7 +24,8 @@ const CUBE: u64 = 2;
 /// Square and cube of a length.
 ///
 /// `done` is high 2·shift + 1 ticks after `start`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LengthPowers {
     /// Its widths.
     pub widths: PointWidths,

@@ -24,7 +24,8 @@ const FIRST: u64 = 1;
 const SECOND: u64 = 2;
 
 /// Widths of a reference model in bits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ModelWidths {
     /// P: positions, velocities, accelerations, signed.
     pub position: usize,
@@ -51,7 +52,8 @@ signals! { for ModelWidths as c;
 }
 
 /// State of a reference model.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ModelState {
     /// Its widths.
     pub widths: ModelWidths,

@@ -17,7 +17,8 @@ use crate::hdl::prelude::*;
 /// Register of a length.
 ///
 /// `fresh` or `held` is high 2 ticks after `sample`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PathLength {
     /// Width of a length in bits.
     pub width: usize,

@@ -40,7 +40,8 @@ macro_rules! of_axes {
 pub(super) use of_axes;
 
 /// Path point.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PathPoint {
     /// Its widths, by name.
     pub widths: PointWidths,

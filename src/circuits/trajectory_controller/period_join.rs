@@ -22,7 +22,8 @@ use crate::hdl::prelude::*;
 ///
 /// `correct` is high `wait` + 2 ticks after `begins`, or later where points take longer; after
 /// `held` too, but in the next tick if `wait` is 0.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PeriodJoin {
     /// Ticks that every period waits, below 1023: those of the longest.
     pub wait: u64,

@@ -34,7 +34,8 @@ pub const RADIUS: u64 = 2;
 pub const STEADY_RADIUS: u64 = 12;
 
 /// Sequencer of the blocks of a path point.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PointSequencer {
     /// Its widths.
     pub widths: PointWidths,

@@ -18,7 +18,8 @@ use crate::circuits::blocks::{Scaler, scaler};
 use crate::hdl::prelude::*;
 
 /// Reference model.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ReferenceModel {
     /// Its widths.
     pub widths: ModelWidths,

@@ -24,7 +24,8 @@ const COMPARE: u64 = 2;
 /// Search among up to 2^A segments.
 ///
 /// `done` is high 2·A + 1 ticks after `start`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct SegmentSearch {
     /// Its widths.
     pub widths: PointWidths,

@@ -20,7 +20,8 @@ pub const WORDS: usize = 16;
 ///
 /// `load` is high from the second tick after `fetch` on, for as many ticks as there are words;
 /// `loaded` in the tick after them.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct SegmentStore {
     /// Its widths.
     pub widths: PointWidths,

@@ -16,7 +16,8 @@ use crate::circuits::blocks::{QuadratureCounter, Scaler, quadrature_counter, sca
 use crate::hdl::prelude::*;
 
 /// Servo control.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Servo {
     /// Its widths.
     pub widths: ServoWidths,

@@ -44,7 +44,8 @@ pub const FINE: usize = 4;
 pub const LEFT: usize = 6;
 
 /// Widths of a servo control in bits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ServoWidths {
     /// W: positions of the motor in counts, signed.
     pub count: usize,
@@ -92,7 +93,8 @@ signals! { for ServoWidths as c;
 }
 
 /// Arithmetic of a servo control.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ServoArithmetic {
     /// The servo control's widths.
     pub widths: ServoWidths,

@@ -43,7 +43,8 @@ impl Correction {
 }
 
 /// Correction of points.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct VectorCorrection {
     /// Width of a point in bits.
     pub width: usize,

@@ -8,7 +8,8 @@ use super::servo_arithmetic::{FINE, LEFT, ServoWidths};
 use crate::circuits::arc_generator::Widths as RecordWidths;
 
 /// Widths in bits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Widths {
     /// W: counts of a coordinate or of the path's length, signed.
     pub position: usize,
@@ -139,7 +140,8 @@ impl Widths {
 }
 
 /// Widths of the point at a length along the path, in bits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PointWidths {
     /// P: points and lengths, signed, in guard units.
     pub point: usize,

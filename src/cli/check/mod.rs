@@ -5,10 +5,10 @@ mod report;
 mod tasks;
 mod work;
 
-use super::chosen::{self, Width};
+use super::chosen::{Changes, entry};
 use super::{Failure, print, print_json};
 use clap::Args;
-use motion_rtl::registry::{CATALOGUE, Entry, find};
+use motion_rtl::registry::{CATALOGUE, Entry};
 use parts::Shard;
 use report::{Asked, Report};
 use std::path::PathBuf;
@@ -19,19 +19,8 @@ pub struct Arguments {
     /// Circuits; without them all.
     #[arg(value_name = "CIRCUIT")]
     circuits: Vec<String>,
-    /// Width of the words, in bits, or of one of them by its name (`position=3`).
-    #[arg(long, value_name = "[NAME=]BITS", allow_negative_numbers = true)]
-    width: Vec<Width>,
-    /// What else the circuit is made with, as `list` tells: `--with 1` is the literal variant of
-    /// unit_law, pulse_generator and axis.
-    #[arg(
-        long,
-        value_name = "NUMBERS",
-        allow_negative_numbers = true,
-        value_delimiter = ',',
-        requires = "circuits"
-    )]
-    with: Vec<u64>,
+    #[command(flatten)]
+    changes: Changes,
     /// States after which a proof is given up.
     #[arg(long, value_name = "STATES", allow_negative_numbers = true, default_value_t = 1 << 26)]
     limit: u32,
@@ -46,24 +35,12 @@ pub struct Arguments {
         long,
         value_name = "FILES",
         num_args = 1..,
-        conflicts_with_all = ["circuits", "width", "with", "limit", "out", "shard"]
+        conflicts_with_all = ["circuits", "set", "width", "limit", "out", "shard"]
     )]
     merge: Vec<PathBuf>,
     /// Prints the table as JSON.
     #[arg(long)]
     json: bool,
-}
-
-/// The circuit of that name.
-pub fn entry(name: &str) -> Result<&'static Entry, Failure> {
-    find(name).ok_or_else(|| {
-        let names: Vec<&str> = CATALOGUE.iter().map(|entry| entry.name).collect();
-        Failure::Argument {
-            field: "CIRCUIT",
-            problem: format!("there is no {name}"),
-            allowed: names.join(", "),
-        }
-    })
 }
 
 /// The circuits of these names, each once; without any, all that there are.
@@ -84,12 +61,9 @@ pub fn entries(names: &[String]) -> Result<Vec<&'static Entry>, Failure> {
 /// Proves and sweeps, or puts together what was proved and swept elsewhere.
 pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     let report = if arguments.merge.is_empty() {
-        let (width, widths) = chosen::widths(&arguments.width)?;
         let asked = Asked {
             circuits: arguments.circuits.clone(),
-            width,
-            widths,
-            with: arguments.with.clone(),
+            changes: arguments.changes.clone(),
             limit: arguments.limit,
         };
         let (tasks, others) = tasks::of(&asked)?;

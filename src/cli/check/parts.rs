@@ -50,7 +50,7 @@ impl Shard {
         let mut proofs = 0;
         let mine = tasks.iter().filter(|task| {
             let turn = proofs % self.of + 1;
-            match task.kind() {
+            match task.kind {
                 Kind::Sweep => true,
                 Kind::Proof => {
                     proofs += 1;
@@ -103,7 +103,7 @@ fn read(path: &Path) -> Result<(Report, Vec<Task>), Failure> {
     }
     let (tasks, _) = tasks::of(&report.asked)?;
     let mine = report.shard.of(&tasks);
-    let of_task = |task: &Task| (task.circuit(), task.kind());
+    let of_task = |task: &Task| (task.circuit(), task.kind);
     let of_row = |row: &Row| (row.circuit.clone(), row.kind);
     for (index, row) in report.rows.iter().enumerate() {
         let right = mine.get(index).is_some_and(|task| {
@@ -182,7 +182,7 @@ pub fn merge(paths: &[PathBuf]) -> Result<Report, Failure> {
     let merged = all.iter().filter_map(|task| {
         let mut whole: Option<Row> = None;
         for rows in &mut rows {
-            let belongs = |row: &Row| row.circuit == task.circuit() && row.kind == task.kind();
+            let belongs = |row: &Row| row.circuit == task.circuit() && row.kind == task.kind;
             if let Some(row) = rows.next_if(belongs) {
                 whole = Some(match whole {
                     None => row,
@@ -215,22 +215,9 @@ fn unread() -> Failure {
 
 /// What was asked for, as on the command line.
 fn told(asked: &Asked) -> String {
-    let mut text = "check".to_owned();
-    let mut add = |option: &str, value: Option<String>| {
-        if let Some(value) = value {
-            text = format!("{text} {option}{value}");
-        }
-    };
-    let numbers: Vec<_> = asked.with.iter().map(u64::to_string).collect();
-    let circuits = asked.circuits.join(" ");
-    add("", (!circuits.is_empty()).then_some(circuits));
-    add("--width ", asked.width.map(|width| width.to_string()));
-    for (name, bits) in &asked.widths {
-        add("--width ", Some(format!("{name}={bits}")));
-    }
-    add("--with ", (!numbers.is_empty()).then(|| numbers.join(",")));
-    add("--limit ", Some(asked.limit.to_string()));
-    text
+    let names = asked.circuits.iter().map(|name| format!(" {name}"));
+    let names: String = names.collect();
+    format!("check{names}{} --limit {}", asked.changes, asked.limit)
 }
 
 /// The parts of a sweep, that of the lower cases first.

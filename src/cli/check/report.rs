@@ -2,7 +2,9 @@
 
 use super::parts::Shard;
 use crate::cli::Failure;
+use crate::cli::chosen::Changes;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// Problem of a circuit that is neither proved nor swept, and what is done instead.
@@ -14,11 +16,8 @@ pub const ITS_BLOCKS: &str = "its blocks; what is tested of it stands in its not
 #[serde(deny_unknown_fields)]
 pub struct Asked {
     pub circuits: Vec<String>,
-    pub width: Option<u64>,
-    /// Single widths, by their names.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub widths: Vec<(String, u64)>,
-    pub with: Vec<u64>,
+    /// Changed keys, as on the command line.
+    pub changes: Changes,
     pub limit: u32,
 }
 
@@ -50,7 +49,8 @@ pub enum Ended {
 pub struct Row {
     pub circuit: String,
     pub kind: Kind,
-    pub width: u64,
+    /// Widths of the circuit in bits.
+    pub widths: BTreeMap<String, u64>,
     /// What holds.
     pub invariants: Vec<String>,
     pub ended: Ended,
@@ -61,6 +61,18 @@ pub struct Row {
     pub seconds: f64,
     /// Why it does not hold.
     pub fault: Option<String>,
+}
+
+impl Row {
+    /// The width, or the least and the greatest of several.
+    fn width(&self) -> String {
+        let (least, greatest) = (self.widths.values().min(), self.widths.values().max());
+        match (least, greatest) {
+            (Some(least), Some(greatest)) if least == greatest => least.to_string(),
+            (Some(least), Some(greatest)) => format!("{least}-{greatest}"),
+            _ => String::new(),
+        }
+    }
 }
 
 /// All rows of a work, or of a part of it.
@@ -106,13 +118,14 @@ impl Report {
             };
             let _ = writeln!(
                 table,
-                "{:<22} {:>5} {:>10} {:>12} {:>5} {:>7.2} s  {ended}",
+                "{:<22} {:>5} {:>10} {:>12} {:>5} {:>7.2} s  {ended}{}",
                 row.circuit,
-                self.made_with(row),
+                row.width(),
                 number(row.states),
                 number(row.transitions),
                 number(row.depth),
-                row.seconds
+                row.seconds,
+                self.asked.changes
             );
             for invariant in &row.invariants {
                 let _ = writeln!(table, "  {invariant}");
@@ -129,12 +142,6 @@ impl Report {
             let _ = writeln!(table, "part {} of {}", self.shard.part, self.shard.of);
         }
         table
-    }
-
-    /// The width, and what else it is made with.
-    fn made_with(&self, row: &Row) -> String {
-        let numbers = std::iter::once(&row.width).chain(&self.asked.with);
-        numbers.map(u64::to_string).collect::<Vec<_>>().join(",")
     }
 
     /// A failure where something does not hold, and another where it is left undecided: that is a

@@ -1,53 +1,42 @@
 //! What there is to do, in the order of the table.
 
+use super::entries;
 use super::report::{Asked, ITS_BLOCKS, Kind, TOO_WIDE};
-use super::{entries, entry};
 use crate::cli::{Failure, chosen};
-use motion_rtl::registry::{Entry, Request, SweepEntry, WIDTHS, sweeps};
+use motion_rtl::registry::{AnySweep, Entry, Pair};
 
-/// A proof or a sweep.
+/// The most cases of a sweep.
+const MOST_CASES: u64 = 1 << 32;
+
+/// A proof or a sweep of a circuit with changed keys.
 #[derive(Debug, Clone)]
-pub enum Task {
-    Proof(&'static Entry, Request),
-    Sweep(&'static SweepEntry, Vec<u64>),
+pub struct Task {
+    pub entry: &'static Entry,
+    pub pairs: Vec<Pair>,
+    pub kind: Kind,
 }
 
 impl Task {
-    /// The circuit's name.
+    /// Name of the circuit.
     pub fn circuit(&self) -> &'static str {
-        match self {
-            Task::Proof(entry, _) => entry.name,
-            Task::Sweep(entry, _) => entry.circuit,
-        }
-    }
-
-    pub fn kind(&self) -> Kind {
-        match self {
-            Task::Proof(..) => Kind::Proof,
-            Task::Sweep(..) => Kind::Sweep,
-        }
+        self.entry.name
     }
 }
 
 /// What was asked for, and the circuits of which nothing can be proved or swept.
 pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
     let (mut tasks, mut others) = (Vec::new(), Vec::new());
+    if asked.circuits.is_empty() && !asked.changes.is_empty() {
+        return Err(chosen::no_circuit(&asked.changes, "check"));
+    }
     // Once is enough; and the rows of parts are told apart by their circuit.
     for entry in entries(&asked.circuits)? {
+        let kinds = [(entry.proved, Kind::Proof), (entry.swept, Kind::Sweep)];
+        let kinds = kinds.into_iter().filter(|(has, _)| *has);
         let before = tasks.len();
-        if let Some(width) = entry.proof_width {
-            let request = Request {
-                width: Some(asked.width.unwrap_or(width)),
-                named: asked.widths.clone(),
-                with: asked.with.clone(),
-            };
-            tasks.push(Task::Proof(entry, request));
-        }
-        // The words of a law follow from one width.
-        if asked.widths.is_empty() {
-            let given = |width: u64| [&[asked.width.unwrap_or(width)], &asked.with[..]].concat();
-            let sweeps = sweeps(entry.name).map(|sweep| Task::Sweep(sweep, given(sweep.width)));
-            tasks.extend(sweeps);
+        for (_, kind) in kinds {
+            let pairs = asked.changes.pairs(entry)?;
+            tasks.push(Task { entry, pairs, kind });
         }
         if tasks.len() == before {
             others.push(entry.name.to_owned());
@@ -62,54 +51,41 @@ pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
             allowed: ITS_BLOCKS.into(),
         });
     }
-    if let Some(width) = asked.width
-        && asked.circuits.is_empty()
-        && !WIDTHS.contains(&width)
-    {
-        return Err(Failure::Argument {
-            field: "--width",
-            problem: format!("is {width}"),
-            allowed: format!("{} to {}", WIDTHS.start(), WIDTHS.end()),
-        });
-    }
     for task in &tasks {
-        // Of several the others are swept all the same.
-        if asked.circuits.len() < 2 || !too_wide(task) {
-            made(task)?;
-        }
+        made(task, asked.circuits.len() < 2)?;
     }
     Ok((tasks, others))
 }
 
-/// True if a sweep at this width has no end.
-pub fn too_wide(task: &Task) -> bool {
-    match task {
-        Task::Proof(..) => false,
-        Task::Sweep(sweep, given) => given
-            .first()
-            .is_some_and(|width| width > sweep.widths.end()),
+/// Says what is wrong with a law of more cases than can be swept.
+pub fn too_wide(law: &dyn AnySweep) -> Option<String> {
+    match law.cases() {
+        Ok(cases) if cases <= MOST_CASES => None,
+        Ok(cases) => Some(format!("a sweep over {cases} cases")),
+        Err(error) => Some(error.to_string()),
     }
 }
 
-/// Whether it can be made.
-fn made(task: &Task) -> Result<(), Failure> {
-    match task {
-        Task::Proof(entry, request) => match entry.proved(request) {
-            Ok(_) => Ok(()),
-            Err(error) => Err(chosen::refused(entry, request, &error)),
-        },
-        Task::Sweep(sweep, given) => match given.first() {
-            Some(width) if !sweep.widths.contains(width) => Err(Failure::Argument {
-                field: "--width",
-                problem: format!("is {width}"),
-                allowed: format!("{} to {}", sweep.widths.start(), sweep.widths.end()),
-            }),
-            _ if (sweep.make)(given).is_some() => Ok(()),
-            _ => Err(Failure::Argument {
-                field: "--with",
-                problem: format!("{} cannot be made with {given:?}", sweep.circuit),
-                allowed: entry(sweep.circuit)?.arguments.to_owned(),
-            }),
-        },
+/// The allowed cases of a sweep.
+pub fn allowed_cases() -> String {
+    format!("smaller widths, for {MOST_CASES} cases at most")
+}
+
+/// Checks that a task can be made; a law that is too wide is wrong where it is `alone`.
+fn made(task: &Task, alone: bool) -> Result<(), Failure> {
+    let refused = |error| chosen::refused(task.entry, error);
+    match task.kind {
+        Kind::Proof => task.entry.proof(&task.pairs).map(drop).map_err(refused),
+        Kind::Sweep => {
+            let law = task.entry.law(&task.pairs).map_err(refused)?;
+            match too_wide(&*law).filter(|_| alone) {
+                None => Ok(()),
+                Some(problem) => Err(Failure::Argument {
+                    field: "--set",
+                    problem: format!("{}: {problem}", task.circuit()),
+                    allowed: allowed_cases(),
+                }),
+            }
+        }
     }
 }

@@ -7,7 +7,7 @@ use crate::cli::{Failure, threads};
 use indicatif::{HumanCount, MultiProgress, ProgressBar, ProgressStyle};
 use motion_rtl::check::Proof;
 use motion_rtl::hdl::RunError;
-use motion_rtl::registry::{AnyCircuit, AnySweep, ProofSearch, Verdict};
+use motion_rtl::registry::{AnyCircuit, AnySweep, Base, ProofSearch, Verdict};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -54,7 +54,7 @@ pub fn run(tasks: &[Task], shard: Shard, limit: u32, out: &Path) -> Result<Vec<R
     let (proofs, sweeps): (Vec<_>, Vec<_>) = mine
         .into_iter()
         .enumerate()
-        .partition(|(_, task)| task.kind() == Kind::Proof);
+        .partition(|(_, task)| task.kind == Kind::Proof);
     let proofs: Vec<_> = proofs.into_par_iter().map(done).collect();
     let rows = proofs.into_iter().chain(sweeps.into_iter().map(done));
     let mut rows = rows.collect::<Result<Vec<_>, _>>()?;
@@ -71,28 +71,14 @@ fn row(
     line: &ProgressBar,
 ) -> Result<Row, Failure> {
     let start = Instant::now();
-    let mut row = match task {
-        Task::Proof(entry, request) => match entry.proved(request) {
-            Ok(circuit) => {
-                let width = request.width.or(entry.proof_width).unwrap_or(0);
-                prove(entry.name, width, &*circuit, limit, out, line)?
-            }
+    let mut row = match task.kind {
+        Kind::Proof => match task.entry.proof(&task.pairs) {
+            Ok(circuit) => prove(task, &*circuit, limit, out, line)?,
             Err(_) => return Err(unmade(task)),
         },
-        Task::Sweep(entry, given) if tasks::too_wide(task) => Row {
-            ended: Ended::TooWide,
-            fault: Some(format!(
-                "{}: no sweep at width {}; allowed: {} to {}",
-                entry.circuit,
-                given[0],
-                entry.widths.start(),
-                entry.widths.end()
-            )),
-            ..begun(entry.circuit, Kind::Sweep, given[0], Vec::new())
-        },
-        Task::Sweep(entry, given) => match (entry.make)(given) {
-            Some(law) => sweep(entry.circuit, given[0], &*law, shard, out, line)?,
-            None => return Err(unmade(task)),
+        Kind::Sweep => match task.entry.law(&task.pairs) {
+            Ok(law) => sweep(task, &*law, shard, out, line)?,
+            Err(_) => return Err(unmade(task)),
         },
     };
     row.seconds = start.elapsed().as_secs_f64();
@@ -105,11 +91,12 @@ fn unmade(task: &Task) -> Failure {
 }
 
 /// A row of which nothing is known yet.
-fn begun(circuit: &str, kind: Kind, width: u64, invariants: Vec<String>) -> Row {
+fn begun(task: &Task, invariants: Vec<String>) -> Row {
+    let widths = task.entry.widths(Base::Small, &task.pairs);
     Row {
-        circuit: circuit.to_owned(),
-        kind,
-        width,
+        circuit: task.circuit().to_owned(),
+        kind: task.kind,
+        widths: widths.into_iter().collect(),
         invariants,
         ended: Ended::Holds,
         states: None,
@@ -121,14 +108,14 @@ fn begun(circuit: &str, kind: Kind, width: u64, invariants: Vec<String>) -> Row 
 }
 
 fn prove(
-    name: &str,
-    width: u64,
+    task: &Task,
     circuit: &dyn AnyCircuit,
     limit: u32,
     out: &Path,
     line: &ProgressBar,
 ) -> Result<Row, Failure> {
-    let row = begun(name, Kind::Proof, width, circuit.invariants());
+    let name = task.circuit();
+    let row = begun(task, circuit.invariants());
     let search = ProofSearch {
         states: limit,
         waves: Some(out),
@@ -142,9 +129,7 @@ fn prove(
     Ok(match verdict {
         Err(error) => Row {
             ended: Ended::TooWide,
-            fault: Some(format!(
-                "{name} at width {width}: {error}; allowed: a smaller --width"
-            )),
+            fault: Some(format!("{name}: {error}; allowed: smaller widths")),
             ..row
         },
         Ok(Verdict::Proved(Proof {
@@ -174,14 +159,24 @@ fn prove(
 }
 
 fn sweep(
-    name: &str,
-    width: u64,
+    task: &Task,
     law: &dyn AnySweep,
     shard: Shard,
     out: &Path,
     line: &ProgressBar,
 ) -> Result<Row, Failure> {
-    let row = begun(name, Kind::Sweep, width, vec![law.law().to_owned()]);
+    let name = task.circuit();
+    let row = begun(task, vec![law.law().to_owned()]);
+    if let Some(problem) = tasks::too_wide(law) {
+        return Ok(Row {
+            ended: Ended::TooWide,
+            fault: Some(format!(
+                "{name}: {problem}; allowed: {}",
+                tasks::allowed_cases()
+            )),
+            ..row
+        });
+    }
     let swept = law.cases().and_then(|cases| {
         let range = shard.range(cases);
         line.set_length(range.end - range.start);
@@ -199,14 +194,12 @@ fn sweep(
         Ok(Verdict::Broken { report, waves }) => broken(row, &report, waves),
         Ok(Verdict::Undecided(_)) => Row {
             ended: Ended::NotDecided,
-            fault: Some(format!("{name} at width {width}: not decided")),
+            fault: Some(format!("{name}: not decided")),
             ..row
         },
         Err(error) => Row {
             ended: Ended::TooWide,
-            fault: Some(format!(
-                "{name} at width {width}: {error}; allowed: a smaller --width"
-            )),
+            fault: Some(format!("{name}: {error}; allowed: smaller widths")),
             ..row
         },
     })

@@ -1,357 +1,286 @@
-mod makers;
-
-use super::make::FLAGS;
 use crate::circuits::lead_angle::{
     AbsoluteDetector, Comparator, Comparing, Compensator, CompletionDetector, Correction,
-    CorrectionArithmetic, DifferenceHistory, DividedTime, ExactRelation, Function, GrayReceiver,
-    Lead, LeadFrom, LeadPlacement, LeadProducts, LeadTable, Memory, PhaseCounter, PhaseDetector,
-    Placement, PositionHistory, RamHistory, RatioLogic, Refinement, ResolverDetector, Sign,
-    SpeedDetector, SpeedLead, StepSequencer, StopError, TableLead, TargetSetter, TimeData,
-    TimeLead, TimeLimit, TouchProbe, TrackingConverter, TrackingLoop, Unwrapper, Widths,
+    CorrectionArithmetic, DifferenceHistory, DividedTime, Division, ExactRelation, Function,
+    GrayReceiver, Lead, LeadForm, LeadFrom, LeadPlacement, LeadProducts, LeadTable, Memory,
+    PhaseCounter, PhaseDetector, Placement, PositionHistory, RamHistory, RatioLogic, Refinement,
+    ResolverDetector, Sign, SpeedDetector, SpeedLead, StepSequencer, StopError, TableLead,
+    TargetSetter, TimeData, TimeLead, TimeLimit, TouchProbe, TrackingConverter, TrackingLoop,
+    Unwrapper, Variant, Widths,
 };
+use crate::hdl::Image;
 use crate::registry::Entry;
 use crate::registry::entry::entry;
-use makers::{
-    COMPARINGS, PLACEMENTS, RAM, SHIFT, SIGNS, chosen, compensator, conventional, correction,
-    filled, formed, rom, small, stages, table_lead, time_data, time_lead,
+
+/// Positions, speeds, times and CK of four bits.
+const SMALL: Widths = Widths {
+    stages: 3,
+    position: 4,
+    step: 2,
+    speed: 4,
+    cks: 4,
+    ck_period: 4,
+    code: 3,
+    converter: 3,
 };
+
+/// The lead of a time in the form of the figures.
+fn time(memory: Memory) -> LeadFrom {
+    LeadFrom::Time {
+        memory,
+        form: LeadForm::Embodiment,
+    }
+}
+
+/// A compensator without any time.
+fn compensator(lead_from: LeadFrom, widths: Widths) -> Compensator {
+    let rom = Image::new(widths.step, widths.time());
+    Compensator {
+        widths,
+        lead_from,
+        variant: Variant::default(),
+        rom,
+    }
+}
+
+/// A correction with the sign that converges.
+fn correction(function: Function, stages: usize, position: usize) -> Correction {
+    Correction {
+        stages,
+        position,
+        sign: Sign::Converging,
+        function,
+        division: Division::Logic,
+    }
+}
 
 /// The circuits of JPH0646367B2.
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         AbsoluteDetector, "JPH0646367B2 10, an absolute encoder of a turn",
-        full: || AbsoluteDetector { code: 17, position: 24 },
-        widths: [code, position],
-        by: "width of the position, a word being one bit narrower",
-        |position| AbsoluteDetector { code: position.saturating_sub(1), position },
-        proved: none,
+        full: AbsoluteDetector { code: 17, position: 24 },
+        small: AbsoluteDetector { code: 3, position: 4 },
     ),
     entry!(
         GrayReceiver, "JPH0646367B2 10, words of an absolute encoder",
-        full: || GrayReceiver { code: 17 },
-        widths: [code],
-        by: "width of a word", |code| GrayReceiver { code },
-        proved: 3,
+        full: GrayReceiver { code: 17 },
+        small: GrayReceiver { code: 3 },
+        proved: true,
     ),
     entry!(
         Unwrapper, "JPH0646367B2 10, places of a turn or a pitch",
-        full: || Unwrapper { place: 17, position: 24 },
-        widths: [place, position],
-        by: "width of the position, a place being one bit narrower",
-        |position| Unwrapper { place: position.saturating_sub(1), position },
-        proved: 4,
+        full: Unwrapper { place: 17, position: 24 },
+        small: Unwrapper { place: 3, position: 4 },
+        proved: true,
     ),
     entry!(
         PhaseDetector, "JPH0646367B2 10, a phase-shift transducer",
-        full: || PhaseDetector { phase: 17, position: 24 },
-        widths: [phase, position],
-        by: "width of the position, a phase being one bit narrower",
-        |position| PhaseDetector { phase: position.saturating_sub(1), position },
-        proved: none,
+        full: PhaseDetector { phase: 17, position: 24 },
+        small: PhaseDetector { phase: 3, position: 4 },
     ),
     entry!(
         PhaseCounter, "JPH0646367B2 10, carrier and crossings",
-        full: || PhaseCounter { phase: 17 },
-        widths: [phase],
-        by: "width of a phase", |phase| PhaseCounter { phase },
-        proved: 3,
+        full: PhaseCounter { phase: 17 },
+        small: PhaseCounter { phase: 3 },
+        proved: true,
     ),
     entry!(
         ResolverDetector, "JPH0646367B2 10, a resolver",
-        full: || ResolverDetector { converter: TrackingConverter::new(12, 17), position: 24 },
-        widths: [
-            converter = converter.converter, angle = converter.tracking.angle,
-            smoothing = converter.tracking.smoothing, settling = converter.tracking.settling,
-            position,
-        ],
-        by: "width of an angle and of the A/D words, the position being one bit wider", |angle| {
-            ResolverDetector { converter: TrackingConverter::new(angle, angle), position: angle + 1 }
-        },
-        proved: none,
+        full: ResolverDetector { converter: TrackingConverter::new(12, 17), position: 24 },
+        small: ResolverDetector { converter: TrackingConverter::new(5, 5), position: 6 },
     ),
     entry!(
         TrackingConverter, "JPH0646367B2 10, windings of a resolver",
-        full: || TrackingConverter::new(12, 17),
-        widths: [converter; angle, smoothing, settling in tracking],
-        by: "width of an angle and of the A/D words", |angle| TrackingConverter::new(angle, angle),
-        proved: none,
+        full: TrackingConverter::new(12, 17),
+        small: TrackingConverter::new(4, 4),
     ),
     entry!(
         TrackingLoop, "JPH0646367B2 10, error of an angle",
-        full: || TrackingLoop::new(17),
-        widths: [angle, smoothing, settling],
-        by: "width of an angle", |angle| TrackingLoop { angle, smoothing: 1, settling: 1 },
-        proved: 4,
+        full: TrackingLoop::new(17),
+        small: TrackingLoop { angle: 4, smoothing: 1, settling: 1 },
+        proved: true,
     ),
     entry!(
         RatioLogic, "JPH0646367B2 13",
-        full: || RatioLogic { stages: 199 },
-        widths: [stages],
-        by: "4 for 3 stages, 8 for 15", |width| RatioLogic { stages: stages(width) },
-        proved: 4,
+        full: RatioLogic { stages: 199 },
+        small: RatioLogic { stages: 3 },
+        proved: true,
     ),
     entry!(
         PositionHistory, "JPH0646367B2 11 + 14",
-        full: || PositionHistory { stages: 199, position: 24 },
-        widths: [stages, position],
-        by: "width: 2 stages for 2, 3 for 4, 15 for 8",
-        |position| PositionHistory { stages: stages(position), position },
-        proved: 2,
+        full: PositionHistory { stages: 199, position: 24 },
+        small: PositionHistory { stages: 2, position: 2 },
+        proved: true,
     ),
     entry!(
         RamHistory, "JPH0646367B2 11 + 14, as a RAM",
-        full: || RamHistory { stages: 199, position: 24 },
-        widths: [stages, position],
-        by: "width: 2 stages for 2, 3 for 4, 15 for 8",
-        |position| RamHistory { stages: stages(position), position },
-        proved: 2,
+        full: RamHistory { stages: 199, position: 24 },
+        small: RamHistory { stages: 2, position: 2 },
+        proved: true,
     ),
     entry!(
         DifferenceHistory, "JPH0646367B2 11 + 15 + 14",
-        full: || DifferenceHistory { stages: 199, position: 24 },
-        widths: [stages, position],
-        by: "width: 2 stages for 2, 3 for 4, 15 for 8",
-        |position| DifferenceHistory { stages: stages(position), position },
-        proved: 2,
+        full: DifferenceHistory { stages: 199, position: 24 },
+        small: DifferenceHistory { stages: 2, position: 2 },
+        proved: true,
     ),
     entry!(
         DividedTime, "JPH0646367B2, without 13",
-        full: || DividedTime { stages: 199, one: false },
-        widths: [stages],
-        by: "4 for 3 stages, 8 for 15, then 0 for N above Δt/N or 1 for N = 1",
-        |width, one of FLAGS| DividedTime { stages: stages(width), one },
-        proved: 4,
+        full: DividedTime { stages: 199, one: false },
+        small: DividedTime { stages: 3, one: false },
+        proved: true,
     ),
     entry!(
         TimeLimit, "JPH0646367B2, without 13",
-        full: || TimeLimit { stages: 1990 },
-        widths: [stages],
-        by: "4 for 30 stages, 8 for 150", |width| TimeLimit { stages: 10 * stages(width) },
-        proved: 4,
+        full: TimeLimit { stages: 1990 },
+        small: TimeLimit { stages: 30 },
+        proved: true,
     ),
     entry!(
         Lead, "JPH0646367B2 15 + 16",
-        full: || Lead { position: 24, one: false },
-        widths: [position],
-        by: "width, 0 for N or 1 for N = 1", |position, one of FLAGS| Lead { position, one },
-        proved: 4,
+        full: Lead { position: 24, one: false },
+        small: Lead { position: 4, one: false },
+        proved: true,
     ),
     entry!(
         LeadProducts, "JPH0646367B2 17, without 15",
-        full: || LeadProducts { position: 24, one: false },
-        widths: [position],
-        by: "width, 0 for N or 1 for N = 1",
-        |position, one of FLAGS| LeadProducts { position, one },
-        proved: 4,
+        full: LeadProducts { position: 24, one: false },
+        small: LeadProducts { position: 4, one: false },
+        proved: true,
     ),
     entry!(
         TimeLead, "JPH0646367B2 11, 13–16",
-        full: || TimeLead::new(199, 24, Memory::ShiftRegister),
-        widths: [stages, position],
-        from: "width of positions (3 stages for 4, 15 for 8), 0 for N by 13, 1 beforehand or 2 for \
-               N = 1, 0 for 15 behind 14, 1 for the products or 2 for 15 before 14",
-            |given| time_lead(Memory::ShiftRegister, given),
-        with: formed,
-        proved: none,
+        full: TimeLead::new(199, 24, Memory::ShiftRegister),
+        small: TimeLead::new(3, 4, Memory::ShiftRegister),
     ),
     entry!(
         TimeLead, "JPH0646367B2 11, 13–16, with a RAM",
-        full: || TimeLead::new(199, 24, Memory::Ram),
-        widths: [stages, position],
-        from: "width of positions (3 stages for 4, 15 for 8), 0 for N by 13, 1 beforehand or 2 for \
-               N = 1, 0 for 15 behind 14 or 1 for the products",
-            |given| time_lead(Memory::Ram, given),
-        with: formed,
-        proved: none,
+        full: TimeLead::new(199, 24, Memory::Ram),
+        small: TimeLead::new(3, 4, Memory::Ram),
         named: "ram_time_lead", "the lead of a time, from a RAM of samples",
     ),
     entry!(
         SpeedDetector, "JPH0646367B2 2 of Fig. 7",
-        full: || SpeedDetector { position: 24, gate: 16 },
-        widths: [position, gate],
-        by: "width", |width| SpeedDetector { position: width, gate: width },
-        proved: 2,
+        full: SpeedDetector { position: 24, gate: 16 },
+        small: SpeedDetector { position: 2, gate: 2 },
+        proved: true,
     ),
     entry!(
         SpeedLead, "JPH0646367B2 1 + 2 of Fig. 7",
-        full: || SpeedLead { position: 24, gate: 16 },
-        widths: [position, gate],
-        by: "width", |width| SpeedLead { position: width, gate: width },
-        proved: 2,
+        full: SpeedLead { position: 24, gate: 16 },
+        small: SpeedLead { position: 2, gate: 2 },
+        proved: true,
     ),
     entry!(
         TableLead, "JPH0646367B2 1 + 2 of Fig. 7, from a memory",
-        full: || TableLead {
+        full: TableLead {
             position: 24,
             gate: 16,
             table: LeadTable::new(8, 24, 5, |speed| 2 * speed + speed * speed.abs() / 64),
         },
-        widths: [position, gate],
-        from: "width (2 words for 3, 4 for 4, 8 for 8), then each word's lead and what it grows by",
-            table_lead,
-        with: filled,
-        proved: 3,
+        small: TableLead {
+            position: 3,
+            gate: 3,
+            table: LeadTable::new(1, 3, 1, |speed| 2 * speed + speed * speed.abs() / 4),
+        },
+        proved: true,
     ),
     entry!(
         LeadPlacement, "JPH0646367B2 17, 20",
-        full: || LeadPlacement { position: 24, placement: Placement::Position },
-        widths: [position],
-        by: "width, 0 for the position, 1 for the target or 2 for halves",
-        |position, placement of PLACEMENTS| LeadPlacement { position, placement },
-        proved: 4,
+        full: LeadPlacement { position: 24, placement: Placement::Position },
+        small: LeadPlacement { position: 4, placement: Placement::Position },
+        proved: true,
     ),
     entry!(
         Comparator, "JPH0646367B2 19",
-        full: || Comparator { position: 24, comparing: Comparing::Crossing },
-        widths: [position],
-        by: "width, 0 for crossing or 1 for equal",
-        |position, comparing of COMPARINGS| Comparator { position, comparing },
-        proved: 4,
+        full: Comparator { position: 24, comparing: Comparing::Crossing },
+        small: Comparator { position: 4, comparing: Comparing::Crossing },
+        proved: true,
     ),
     entry!(
         TargetSetter, "JPH0646367B2 18",
-        full: || TargetSetter { step: 4, position: 24, speed: 16 },
-        widths: [step, position, speed],
-        by: "width of positions and speeds (steps have two bits)",
-        |width| TargetSetter { step: 2, position: width, speed: width },
-        proved: 2,
+        full: TargetSetter { step: 4, position: 24, speed: 16 },
+        small: TargetSetter { step: 2, position: 2, speed: 2 },
+        proved: true,
     ),
     entry!(
         TimeData, "JPH0646367B2 21 = 24 + 25, 29",
-        full: || TimeData::new(4, 11),
-        widths: [step, time],
-        from: "width (steps have two bits), and the times of the ROM", time_data,
-        with: |circuit, given| {
-            Some(TimeData { rom: rom(circuit.step, circuit.time, given, 0)?, ..circuit })
-        },
-        proved: 2,
+        full: TimeData::new(4, 11),
+        small: TimeData::new(2, 2),
+        proved: true,
     ),
     entry!(
         CompletionDetector, "JPH0646367B2 26",
-        full: || CompletionDetector { position: 24, time: 16 },
-        widths: [position, time],
-        by: "width", |width| CompletionDetector { position: width, time: width },
-        proved: 2,
+        full: CompletionDetector { position: 24, time: 16 },
+        small: CompletionDetector { position: 2, time: 2 },
+        proved: true,
     ),
     entry!(
         TouchProbe, "JPH0646367B2, any operation",
-        full: || TouchProbe { position: 24 },
-        widths: [position],
-        by: "width", |position| TouchProbe { position },
-        proved: 4,
+        full: TouchProbe { position: 24 },
+        small: TouchProbe { position: 4 },
+        proved: true,
     ),
     entry!(
         StopError, "JPH0646367B2 27, 30, 31",
-        full: || StopError { position: 24, sign: Sign::Converging },
-        widths: [position],
-        by: "width, 0 for the converging sign or 1 for the literal one",
-        |position, sign of SIGNS| StopError { position, sign },
-        proved: 4,
+        full: StopError { position: 24, sign: Sign::Converging },
+        small: StopError { position: 4, sign: Sign::Converging },
+        proved: true,
     ),
     entry!(
         CorrectionArithmetic, "JPH0646367B2 28",
-        full: || CorrectionArithmetic { stages: 199, position: 24 },
-        widths: [stages, position],
-        by: "width of positions: 3 stages for 4, 15 for 8",
-        |position| CorrectionArithmetic { stages: stages(position), position },
-        proved: none,
+        full: CorrectionArithmetic { stages: 199, position: 24 },
+        small: CorrectionArithmetic { stages: 3, position: 4 },
     ),
     entry!(
         Refinement, "JPH0646367B2 28, second order",
-        full: || Refinement { time: 11, position: 24 },
-        widths: [time, position],
-        by: "width", |width| Refinement { time: width, position: width },
-        proved: 2,
+        full: Refinement { time: 11, position: 24 },
+        small: Refinement { time: 2, position: 2 },
+        proved: true,
     ),
     entry!(
         ExactRelation, "JPH0646367B2 28, exact relation",
-        full: || ExactRelation { position: 24 },
-        widths: [position],
-        by: "width", |position| ExactRelation { position },
-        proved: 4,
+        full: ExactRelation { position: 24 },
+        small: ExactRelation { position: 4 },
+        proved: true,
     ),
     entry!(
         Correction, "JPH0646367B2 23 = 27, 28, 30, 31",
-        full: || correction(Function::FirstOrder, 199, 24),
-        widths: [stages, position],
-        by: "width of positions (3 stages for 4, 15 for 8), 0 for the converging sign or 1 for \
-             the literal one",
-        |position, sign of SIGNS| Correction {
-            sign,
-            ..correction(Function::FirstOrder, stages(position), position)
-        },
-        proved: none,
+        full: correction(Function::FirstOrder, 199, 24),
+        small: correction(Function::FirstOrder, 3, 4),
     ),
     entry!(
         Correction, "JPH0646367B2 23 = 27, 28, 30, 31, second order",
-        full: || correction(Function::SecondOrder, 199, 24),
-        widths: [stages, position],
-        by: "width of positions (3 stages for 4, 15 for 8), 0 for the converging sign or 1 for \
-             the literal one",
-        |position, sign of SIGNS| Correction {
-            sign,
-            ..correction(Function::SecondOrder, stages(position), position)
-        },
-        proved: none,
+        full: correction(Function::SecondOrder, 199, 24),
+        small: correction(Function::SecondOrder, 3, 4),
         named: "second_order_correction", "learns the lead time of a step to second order",
     ),
     entry!(
         Correction, "JPH0646367B2 23 = 27, 28, 30, 31, exact relation",
-        full: || correction(Function::Exact, 199, 24),
-        widths: [stages, position],
-        by: "width of positions (3 stages for 4, 15 for 8), 0 for the converging sign or 1 for \
-             the literal one",
-        |position, sign of SIGNS| Correction {
-            sign,
-            ..correction(Function::Exact, stages(position), position)
-        },
-        proved: none,
+        full: correction(Function::Exact, 199, 24),
+        small: correction(Function::Exact, 3, 4),
         named: "exact_correction", "learns the lead time of a step by the exact relation",
     ),
     entry!(
         StepSequencer, "JPH0646367B2, step numbers",
-        full: || StepSequencer { step: 4, position: 24, rest: 16 },
-        widths: [step, position, rest],
-        by: "width of positions and times (steps have two bits)",
-        |width| StepSequencer { step: 2, position: width, rest: width },
-        proved: 2,
+        full: StepSequencer { step: 4, position: 24, rest: 16 },
+        small: StepSequencer { step: 2, position: 2, rest: 2 },
+        proved: true,
     ),
     entry!(
         Compensator, "JPH0646367B2, Figs 1, 5 and 6",
-        full: || compensator(SHIFT, Widths::default()),
-        widths: [stages, position, step, speed, cks, ck_period, code, converter in widths],
-        from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
-               placement, comparing and learning as 0, 1 and so on, 0 for an incremental, 1 for an \
-               absolute encoder, 2 for a phase-shift detector, 3 for a resolver, the form as 0 to 5, times \
-               of the ROM",
-            |given| chosen(small(SHIFT, given)?, &given[1..]),
-        with: chosen,
-        proved: none,
+        full: compensator(time(Memory::ShiftRegister), Widths::default()),
+        small: compensator(time(Memory::ShiftRegister), SMALL),
     ),
     entry!(
         Compensator, "JPH0646367B2, Figs 1, 5 and 6, with a RAM",
-        full: || compensator(RAM, Widths::default()),
-        widths: [stages, position, step, speed, cks, ck_period, code, converter in widths],
-        from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
-               placement, comparing and learning as 0, 1 and so on, 0 for an incremental, 1 for an \
-               absolute encoder, 2 for a phase-shift detector, 3 for a resolver, the form as 0 to 5, times \
-               of the ROM",
-            |given| chosen(small(RAM, given)?, &given[1..]),
-        with: chosen,
-        proved: none,
+        full: compensator(time(Memory::Ram), Widths::default()),
+        small: compensator(time(Memory::Ram), SMALL),
         named: "ram_compensator", "lead-angle compensator with its history in a RAM",
     ),
     entry!(
         Compensator, "JPH0646367B2, Fig. 7",
-        full: || compensator(LeadFrom::Speed, Widths::default()),
-        widths: [stages, position, step, speed, cks, ck_period, code, converter in widths],
-        from: "width of positions, speeds and CK (steps have two bits), placement, comparing and \
-               learning as 0, 1 and so on, 0 for an incremental, 1 for an absolute encoder, 2 for a \
-               phase-shift detector, 3 for a resolver, 0 for a product as the lead or 1 for a memory \
-               of it, times of the ROM",
-            |given| conventional(small(LeadFrom::Speed, given)?, &given[1..]),
-        with: conventional,
-        proved: none,
+        full: compensator(LeadFrom::Speed, Widths::default()),
+        small: compensator(LeadFrom::Speed, SMALL),
         named: "conventional_compensator",
             "compensator whose lead is measured speed times a parameter",
     ),

@@ -5,7 +5,6 @@ mod blocks;
 mod lead_angle;
 mod linear_interpolator;
 mod machine;
-pub(super) mod make;
 mod pulse_interpolator;
 mod trajectory_controller;
 

@@ -1,24 +1,17 @@
-use super::make::{ROUNDINGS, at_most, second, width};
+use crate::circuits::trajectory_controller::error_feedback::FeedbackWidths;
 use crate::circuits::trajectory_controller::model_state::ModelWidths;
 use crate::circuits::trajectory_controller::point_sequencer::RADIUS;
 use crate::circuits::trajectory_controller::servo_arithmetic::ServoWidths;
 use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::widths::PointWidths;
 use crate::circuits::trajectory_controller::{
-    ArcAngle, AxisRow, ControlledAxis, ErrorFeedback, LengthClamp, LengthPowers, ModelState,
-    PathLength, PathPoint, PeriodJoin, PointSequencer, ReferenceModel, Rounding, SegmentSearch,
-    SegmentStore, Servo, ServoArithmetic, TrajectoryController, VectorCorrection, Widths,
+    ArcAngle, AxisRow, ControlledAxis, ErrorFeedback, FeedbackSweep, LengthClamp, LengthPowers,
+    ModelState, PathLength, PathPoint, PeriodJoin, PointSequencer, ReferenceModel, Rounding,
+    SegmentSearch, SegmentStore, Servo, ServoArithmetic, TrajectoryController, VectorCorrection,
+    Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::entry;
-
-/// The corrections by their numbers.
-const CORRECTIONS: &[Correction] = &[
-    Correction::Vector,
-    Correction::None,
-    Correction::Steady,
-    Correction::Feedback,
-];
 
 /// The circuit's own widths, for paths of up to 256 segments.
 const FULL: Widths = Widths {
@@ -26,72 +19,58 @@ const FULL: Widths = Widths {
     ..Widths::FULL
 };
 
-/// Points, lengths, coefficients and angles of one width, two bits more inside, and two segments.
-fn points(width: usize) -> PointWidths {
-    PointWidths {
-        point: width,
-        radius: width + 2,
-        coefficient: width,
-        curvature: width,
-        angle: width,
-        data: width + 2,
-        segment: 1,
-        word: 4,
-    }
-}
+/// Points, lengths, coefficients and angles of four bits, two bits more inside, and two segments.
+const POINTS: PointWidths = PointWidths {
+    point: 4,
+    radius: 6,
+    coefficient: 4,
+    curvature: 4,
+    angle: 4,
+    data: 6,
+    segment: 1,
+    word: 4,
+};
 
-/// Positions and gains of one width.
-fn models(width: usize) -> ModelWidths {
-    ModelWidths {
-        position: width,
-        gain: width,
-    }
-}
+/// Positions and gains of four bits.
+const MODEL: ModelWidths = ModelWidths {
+    position: 4,
+    gain: 4,
+};
 
-/// Counts, gains and torques of one width, and two guard bits.
-fn servos(width: usize) -> ServoWidths {
-    ServoWidths {
-        count: width,
-        position: width + 2,
-        model_gain: width,
-        gain: width,
-        torque: width,
-    }
-}
+/// Counts, gains and torques of four bits, and two guard bits.
+const SERVO: ServoWidths = ServoWidths {
+    count: 4,
+    position: 6,
+    model_gain: 4,
+    gain: 4,
+    torque: 4,
+};
 
-/// The same for all of the controller, with two segments.
-fn widths(width: usize) -> Widths {
-    Widths {
-        position: width,
-        point: width + 2,
-        radius: width + 4,
-        coefficient: width + 2,
-        curvature: width + 2,
-        angle: width + 2,
-        data: 2 * width + 4,
-        segment: 1,
-        fraction: 2 * width + 1,
-        samples: (2 * width).saturating_sub(2),
-        period: 2 * width,
-        gain: width,
-        servo_gain: width,
-        torque: width,
-    }
-}
+/// Counts, gains and torques of four bits, and two segments.
+const SMALL: Widths = Widths {
+    position: 4,
+    point: 6,
+    radius: 8,
+    coefficient: 6,
+    curvature: 6,
+    angle: 6,
+    data: 12,
+    segment: 1,
+    fraction: 9,
+    samples: 6,
+    period: 8,
+    gain: 4,
+    servo_gain: 4,
+    torque: 4,
+};
 
-fn sequencer(widths: PointWidths) -> PointSequencer {
-    PointSequencer {
-        widths,
-        radius_word: RADIUS,
-    }
-}
-
-fn point(widths: PointWidths, axes: usize) -> PathPoint {
-    PathPoint {
-        widths,
-        axes,
-        radius_word: RADIUS,
-    }
+fn feedback(count: usize) -> ErrorFeedback {
+    let widths = FeedbackWidths {
+        count,
+        position: count + 2,
+        gain: count,
+    };
+    ErrorFeedback { widths, axes: 2 }
 }
 
 fn servo(widths: ServoWidths) -> Servo {
@@ -101,191 +80,111 @@ fn servo(widths: ServoWidths) -> Servo {
     }
 }
 
-fn axis(widths: ServoWidths, correction: Correction) -> ControlledAxis {
-    ControlledAxis {
-        servo: servo(widths),
-        correction,
-    }
-}
-
 /// The circuits of CN104204977.
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         ModelState, "CN104204977 20, 22, 24, 25",
-        full: || ModelState { widths: FULL.model(), rounding: Rounding::Nearest },
-        widths: [position, gain in widths],
-        by: "width of positions and gains, 1 for rounding down",
-        |width, rounding of ROUNDINGS| ModelState { widths: models(width), rounding },
-        proved: none,
+        full: ModelState { widths: FULL.model(), rounding: Rounding::Nearest },
+        small: ModelState { widths: MODEL, rounding: Rounding::Nearest },
     ),
     entry!(
         ReferenceModel, "CN104204977 12, 50, 51, 52",
-        full: || ReferenceModel { widths: FULL.model(), rounding: Rounding::Nearest },
-        widths: [position, gain in widths],
-        by: "width of positions and gains, 1 for rounding down",
-        |width, rounding of ROUNDINGS| ReferenceModel { widths: models(width), rounding },
-        proved: none,
+        full: ReferenceModel { widths: FULL.model(), rounding: Rounding::Nearest },
+        small: ReferenceModel { widths: MODEL, rounding: Rounding::Nearest },
     ),
     entry!(
         SegmentSearch, "CN104204977 2, 3: segment",
-        full: || SegmentSearch { widths: FULL.point() },
-        widths: [segment, point in widths],
-        by: "width of lengths (four segments)",
-        |width| {
-            let widths = PointWidths { segment: 2, ..points(width) };
-            SegmentSearch { widths }
-        },
-        proved: none,
+        full: SegmentSearch { widths: FULL.point() },
+        small: SegmentSearch { widths: PointWidths { segment: 2, ..POINTS } },
+        uses: [segment, point],
     ),
     entry!(
         SegmentStore, "CN104204977 2, 3: segments",
-        full: || SegmentStore { widths: FULL.point() },
-        widths: [segment, data in widths],
-        by: "width of a word (two segments)",
-        |data| {
-            let widths = PointWidths { data, ..points(data) };
-            SegmentStore { widths }
-        },
-        proved: none,
+        full: SegmentStore { widths: FULL.point() },
+        small: SegmentStore { widths: PointWidths { data: 4, ..POINTS } },
+        uses: [segment, data],
     ),
     entry!(
         ArcAngle, "CN104204977 2, 3: arc",
-        full: || ArcAngle { widths: FULL.point() },
-        widths: [point, curvature, angle in widths],
-        by: "width of lengths, curvatures and angles", |width| ArcAngle { widths: points(width) },
-        proved: none,
+        full: ArcAngle { widths: FULL.point() },
+        small: ArcAngle { widths: POINTS },
+        uses: [point, curvature, angle],
     ),
     entry!(
         LengthPowers, "CN104204977 2, 3: spline",
-        full: || LengthPowers { widths: FULL.point() },
-        widths: [point, radius in widths],
-        by: "width of lengths; two bits more inside",
-        |width| LengthPowers { widths: points(width) },
-        proved: none,
+        full: LengthPowers { widths: FULL.point() },
+        small: LengthPowers { widths: POINTS },
+        uses: [point, radius],
     ),
     entry!(
         AxisRow, "CN104204977 (1), (5)",
-        full: || AxisRow { widths: FULL.point(), coordinate: 0 },
-        widths: [point, radius, coefficient, data in widths],
-        by: "width of points and coefficients; two bits more inside",
-        |width| AxisRow { widths: points(width), coordinate: 0 },
-        proved: none,
+        full: AxisRow { widths: FULL.point(), coordinate: 0 },
+        small: AxisRow { widths: POINTS, coordinate: 0 },
+        uses: [point, radius, coefficient, data],
     ),
     entry!(
         PointSequencer, "CN104204977 2, 3",
-        full: || sequencer(FULL.point()),
-        widths: [point, radius, curvature, data in widths],
-        by: "width of lengths; two bits more inside", |width| sequencer(points(width)),
-        proved: none,
+        full: PointSequencer { widths: FULL.point(), radius_word: RADIUS },
+        small: PointSequencer { widths: POINTS, radius_word: RADIUS },
+        uses: [point, radius, curvature, data],
     ),
     entry!(
         PathPoint, "CN104204977 2, 3",
-        full: || point(FULL.point(), 3),
-        widths: [axes; segment, point, radius, coefficient, curvature, angle, data in widths],
-        by: "width of points, lengths, coefficients and angles (two axes, two segments)",
-        |width| point(points(width), 2),
-        proved: none,
+        full: PathPoint { widths: FULL.point(), axes: 3, radius_word: RADIUS },
+        small: PathPoint { widths: POINTS, axes: 2, radius_word: RADIUS },
     ),
     entry!(
         LengthClamp, "CN104204977 2, ends",
-        full: || LengthClamp { width: FULL.point, back: 0 },
-        widths: [width],
-        from: "width, what is taken off", |given| {
-            let (width, back) = (width(given)?, second(given, 0, width(given)? - 1)?);
-            Some(LengthClamp { width, back })
-        },
-        with: |clamp, given| {
-            at_most(given, 1)?;
-            let back = given.first().copied().unwrap_or(clamp.back);
-            Some(LengthClamp { back, ..clamp })
-        },
-        proved: 4,
+        full: LengthClamp { width: FULL.point, back: 0 },
+        small: LengthClamp { width: 4, back: 0 },
+        proved: true,
     ),
     entry!(
         PathLength, "CN104204977 1, qc",
-        full: || PathLength { width: FULL.point },
-        widths: [width],
-        by: "width", |width| PathLength { width },
-        proved: 4,
+        full: PathLength { width: FULL.point },
+        small: PathLength { width: 4 },
+        proved: true,
     ),
     entry!(
         VectorCorrection, "CN104204977 4",
-        full: || VectorCorrection { width: FULL.point, correction: Correction::Vector },
-        widths: [width],
-        by: "width, 1 for no correction, 2 for the steady one, 3 for the feedback",
-        |width, correction of CORRECTIONS| VectorCorrection { width, correction },
-        proved: 3,
+        full: VectorCorrection { width: FULL.point, correction: Correction::Vector },
+        small: VectorCorrection { width: 3, correction: Correction::Vector },
+        proved: true,
     ),
     entry!(
         ErrorFeedback, "CN104204977 prior art: errors along and across the path",
-        full: || ErrorFeedback { widths: FULL.feedback(), axes: 2 },
-        widths: [axes; count, position, gain in widths],
-        by: "width of counts and gains (two axes, two guard bits)",
-        |width| ErrorFeedback { widths: widths(width).feedback(), axes: 2 },
-        proved: none,
+        full: ErrorFeedback { widths: FULL.feedback(), axes: 2 },
+        small: feedback(3),
+        swept: FeedbackSweep::new, least: feedback(2),
     ),
     entry!(
         PeriodJoin, "CN104204977 Fig. 1, order",
-        full: || PeriodJoin { wait: 200 },
-        widths: [],
-        from: "ticks to wait", |given| {
-            at_most(given, 1)?;
-            let wait = given.first().copied().unwrap_or(0);
-            Some(PeriodJoin { wait })
-        },
-        with: |join, given| {
-            at_most(given, 1)?;
-            let wait = given.first().copied().unwrap_or(join.wait);
-            Some(PeriodJoin { wait })
-        },
-        proved: 2,
+        full: PeriodJoin { wait: 200 },
+        small: PeriodJoin { wait: 2 },
+        proved: true,
     ),
     entry!(
         ServoArithmetic, "CN104204977 26 to 31",
-        full: || ServoArithmetic { widths: FULL.servo() },
-        widths: [count, position, gain, torque in widths],
-        by: "width of counts, gains and torques; two guard bits",
-        |width| ServoArithmetic { widths: servos(width) },
-        proved: none,
+        full: ServoArithmetic { widths: FULL.servo() },
+        small: ServoArithmetic { widths: SERVO },
+        uses: [count, position, gain, torque],
     ),
     entry!(
         Servo, "CN104204977 11",
-        full: || servo(FULL.servo()),
-        widths: [count, position, model_gain, gain, torque in widths],
-        by: "width of counts, gains and torques; two guard bits", |width| servo(servos(width)),
-        proved: none,
+        full: servo(FULL.servo()),
+        small: servo(SERVO),
     ),
     entry!(
         ControlledAxis, "CN104204977 4, 11, 51",
-        full: || axis(FULL.servo(), Correction::Vector),
-        widths: [
-            count = servo.widths.count,
-            position = servo.widths.position,
-            model_gain = servo.widths.model_gain,
-            gain = servo.widths.gain,
-            torque = servo.widths.torque,
-        ],
-        by: "width of counts, gains and torques, 1 for no correction, 2 for the steady one, 3 for the \
-             feedback; two guard bits",
-        |width, correction of CORRECTIONS| axis(servos(width), correction),
-        proved: none,
+        full: ControlledAxis { servo: servo(FULL.servo()), correction: Correction::Vector },
+        small: ControlledAxis { servo: servo(SERVO), correction: Correction::Vector },
     ),
     entry!(
         TrajectoryController, "CN104204977 10",
-        full: || TrajectoryController::new(FULL, 2, Correction::Vector, Rounding::Nearest),
-        widths: [
-            axes; segment, position, point, radius, coefficient, curvature, angle, data, fraction,
-            samples, gain, servo_gain, torque, period in widths
-        ],
-        by: "width of counts, gains and torques, 1 for no correction, 2 for the steady one, 3 for the \
-             feedback (two axes, two segments; no wait)",
-        |width, correction of CORRECTIONS| TrajectoryController {
-            widths: widths(width),
-            axes: 2,
-            correction,
-            rounding: Rounding::Nearest,
+        full: TrajectoryController::new(FULL, 2, Correction::Vector, Rounding::Nearest),
+        small: TrajectoryController {
             waits: false,
+            ..TrajectoryController::new(SMALL, 2, Correction::Vector, Rounding::Nearest)
         },
-        proved: none,
     ),
 ];

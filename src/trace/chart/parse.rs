@@ -51,6 +51,31 @@ fn fence(text: &str) -> Option<(&str, &str)> {
     (marks.len() >= 3 && !(mark == '`' && info.contains('`'))).then_some((marks, info.trim()))
 }
 
+/// The elements of a list up to the bracket that ends it, and the text behind that.
+fn bracketed(text: &str) -> Option<(Vec<&str>, &str)> {
+    let (mut elements, mut begin, mut depth, mut quoted) = (Vec::new(), 0, 0, None);
+    for (at, mark) in text.char_indices() {
+        match mark {
+            _ if quoted == Some(mark) => quoted = None,
+            _ if quoted.is_some() => {}
+            '"' | '\'' => quoted = Some(mark),
+            '[' | '{' => depth += 1,
+            ']' if depth == 0 => {
+                let last = text[begin..at].trim();
+                elements.extend((begin > 0 || !last.is_empty()).then_some(last));
+                return Some((elements, &text[at + 1..]));
+            }
+            ']' | '}' => depth -= 1,
+            ',' if depth == 0 => {
+                elements.push(text[begin..at].trim());
+                begin = at + 1;
+            }
+            _ => {}
+        }
+    }
+    None
+}
+
 fn closes(text: &str, fence: &str) -> bool {
     let text = text.trim();
     text.len() >= fence.len()
@@ -66,24 +91,19 @@ impl Draft {
         let text = text.trim();
         let name_ends = text.find(|c: char| !c.is_alphanumeric() && c != '_');
         let (circuit, rest) = text.split_at(name_ends.unwrap_or(text.len()));
-        let (args, title) = match rest.strip_prefix('[') {
-            Some(rest) => rest.split_once(']').ok_or(Problem::Fence.at(line))?,
-            None => ("", rest),
+        let (pairs, title) = match rest.strip_prefix('[') {
+            Some(rest) => bracketed(rest).ok_or(Problem::Fence.at(line))?,
+            None => (Vec::new(), rest),
         };
         let separate = title.is_empty() || title.starts_with(char::is_whitespace);
         if circuit.is_empty() || !separate {
             return Err(Problem::Fence.at(line));
         }
-        let args = match args.trim() {
-            "" => Vec::new(),
-            args => args
-                .split(',')
-                .map(|arg| arg.trim().parse().map_err(|_| Problem::Fence.at(line)))
-                .collect::<Result<_, _>>()?,
-        };
+        let pairs = pairs.into_iter().map(str::parse).collect::<Result<_, _>>();
+        let pairs = pairs.map_err(|error| Problem::Pair(error).at(line))?;
         Ok(Draft(Chart {
             circuit: circuit.to_owned(),
-            args,
+            pairs,
             title: title.trim().to_owned(),
             line,
             ticks: 0,

@@ -1,6 +1,7 @@
 use super::{Cell, Chart, ChartError, Problem, Row};
 use crate::engine::{EngineError, Watch};
 use crate::hdl::{Declaration, Described, Format, LeafView as View, Model, RunError};
+use crate::settings::Pair;
 use crate::trace::Options;
 use crate::trace::record::{Record, near};
 use crate::trace::value::{read, show};
@@ -175,9 +176,9 @@ impl Chart {
             .unwrap_or(1);
 
         let mut text = format!("```chart {}", self.circuit);
-        if !self.args.is_empty() {
-            let args: Vec<_> = self.args.iter().map(u64::to_string).collect();
-            text += &format!("[{}]", args.join(", "));
+        if !self.pairs.is_empty() {
+            let pairs: Vec<_> = self.pairs.iter().map(Pair::to_string).collect();
+            text += &format!("[{}]", pairs.join(", "));
         }
         if !self.title.is_empty() {
             text += &format!(" {}", self.title);

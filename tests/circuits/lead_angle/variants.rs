@@ -11,22 +11,22 @@ use motion_rtl::registry::{ProofSearch, Verdict, find};
 
 #[test]
 fn every_variant_is_proved() {
-    let variants: [(&str, &[&[u64]]); 6] = [
-        ("placement", &[&[4, 1], &[4, 2]]),
-        ("comparator", &[&[4, 1]]),
-        ("stop_error", &[&[4, 1]]),
-        ("lead_arithmetic", &[&[4, 1]]),
-        ("lead_products", &[&[4, 1]]),
-        ("divided_time", &[&[4, 1]]),
+    let variants = [
+        ("placement", "placement=target"),
+        ("placement", "placement=halves"),
+        ("comparator", "comparing=equal"),
+        ("stop_error", "sign=literal"),
+        ("lead_arithmetic", "one=true"),
+        ("lead_products", "one=true"),
+        ("divided_time", "one=true"),
     ];
-    for (name, all) in variants {
+    for (name, pair) in variants {
         let entry = find(name).expect("it is in the catalogue");
-        for arguments in all {
-            let circuit = entry.make(arguments).expect("it can be made");
-            let verdict = circuit.prove(&ProofSearch::default(), &mut |_| ()).unwrap();
-            let proved = matches!(verdict, Verdict::Proved(_));
-            assert!(proved, "{name} {arguments:?}: {verdict:?}");
-        }
+        let pairs = [pair.parse().expect("a key with a value")];
+        let circuit = entry.proof(&pairs).expect("it can be made");
+        let verdict = circuit.prove(&ProofSearch::default(), &mut |_| ()).unwrap();
+        let proved = matches!(verdict, Verdict::Proved(_));
+        assert!(proved, "{name} {pair}: {verdict:?}");
     }
 }
 

@@ -38,7 +38,10 @@ fn small(memory: Memory, placement: Placement) -> Compensator {
     };
     Compensator {
         widths,
-        lead_from: LeadFrom::Time(memory, LeadForm::Embodiment),
+        lead_from: LeadFrom::Time {
+            memory,
+            form: LeadForm::Embodiment,
+        },
         variant: Variant {
             placement,
             ..Variant::default()
@@ -167,7 +170,7 @@ fn every_form_is_the_embodiment_in_every_tick() {
                 left.rom = Image::of(2, left.widths.time(), [7, 15, 1, 4]);
             }
             let mut right = left.clone();
-            right.lead_from = LeadFrom::Time(memory, form);
+            right.lead_from = LeadFrom::Time { memory, form };
             let pair = Pair { left, right };
             let mut lockstep = Lockstep::of(&pair, &outputs).unwrap();
             let mut bench = Bench::new(5);
@@ -206,7 +209,7 @@ fn every_form_is_the_embodiment_in_every_tick() {
 fn a_form_says_what_it_has_not() {
     let refused = |form, memory, placement| {
         let mut circuit = small(memory, placement);
-        circuit.lead_from = LeadFrom::Time(memory, form);
+        circuit.lead_from = LeadFrom::Time { memory, form };
         Simulator::new(&circuit).unwrap_err().to_string()
     };
     let early = refused(LeadForm::EarlyDifference, Memory::Ram, Placement::Position);

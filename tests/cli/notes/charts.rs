@@ -2,7 +2,7 @@
 
 use super::links::prose;
 use super::{Note, expect_none, notes};
-use motion_rtl::registry::{CATALOGUE, find};
+use motion_rtl::registry::{Base, CATALOGUE, find};
 use motion_rtl::trace::chart::{Chart, parse};
 use std::collections::HashSet;
 
@@ -22,11 +22,9 @@ fn fault(note: &Note, chart: &Chart) -> Option<String> {
             chart.circuit
         ));
     };
-    let Some(circuit) = entry.model(&chart.args) else {
-        return Some(format!(
-            "{place}: no {} with {:?}; it is made with: {}",
-            entry.name, chart.args, entry.arguments
-        ));
+    let circuit = match entry.made(Base::Small, &chart.pairs) {
+        Ok(circuit) => circuit,
+        Err(refused) => return Some(format!("{place}: {}: {refused}", entry.name)),
     };
     let failure = circuit.chart(chart).err()?;
     Some(format!("{place}: {}: {failure}", entry.name))

@@ -6,7 +6,7 @@
 use super::{Note, axes, blends, connections, expect_none, miscounts, notes, rotations, states};
 use motion_rtl::circuits::pulse_interpolator::counts;
 use motion_rtl::hdl::{Declaration, Format, Kind, MemoryDeclaration, Role};
-use motion_rtl::registry::{CATALOGUE, Entry, ProofSearch, Verdict, find};
+use motion_rtl::registry::{Base, CATALOGUE, Entry, Pair, ProofSearch, Verdict, find};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -135,7 +135,7 @@ fn blocks(patent: &str) -> String {
     let notes = notes();
     for entry in of(patent) {
         let (name, source, about) = (entry.name, entry.source, entry.about);
-        let (page, widths) = (page(&notes, name), widths(entry));
+        let (page, widths) = (page(&notes, name), widths(entry, Base::Full));
         let _ = writeln!(
             text,
             "| [`{name}`]({page}) | {source} | {about} | {widths} |"
@@ -152,14 +152,21 @@ fn page(notes: &[Note], name: &str) -> String {
     page.name.replacen("rtl_notes", "..", 1)
 }
 
-/// The widths of a circuit by name; numbers of axes and of stages are no widths.
-fn widths(entry: &Entry) -> String {
-    let widths = entry.widths().into_iter().map(|(name, width)| match name {
-        "axes" => format!("{name} = {width}"),
-        "stages" => format!("{width} {name}"),
-        _ => format!("{name} = {width} bits"),
+/// The most sizes that are listed; those of a circuit with more are those of its parts.
+const LISTED: usize = 20;
+
+/// The sizes of a circuit by their keys; numbers of axes and of stages are no widths.
+fn widths(entry: &Entry, base: Base) -> String {
+    let sizes = entry.sizes(base, &[]);
+    if sizes.len() > LISTED {
+        return String::new();
+    }
+    let sizes = sizes.into_iter().map(|(key, size)| match key.as_str() {
+        "axes" | "records" | "settings" => format!("{key} = {size}"),
+        key if key.ends_with("stages") => format!("{size} {key}"),
+        key => format!("{key} = {size} bits"),
     });
-    widths.collect::<Vec<_>>().join(", ")
+    sizes.collect::<Vec<_>>().join(", ")
 }
 
 /// What a register holds in tick 0; other signals have no such value.
@@ -178,9 +185,9 @@ fn power_on(leaf: &Declaration) -> String {
 
 /// A circuit's own signals, those of its blocks left out.
 fn signals(entry: &Entry) -> String {
-    let mut text = match entry.widths().is_empty() {
-        true => String::new(),
-        false => format!("Widths: {}.\n\n", widths(entry)),
+    let mut text = match widths(entry, Base::Full) {
+        widths if widths.is_empty() => widths,
+        widths => format!("Widths: {widths}.\n\n"),
     };
     text += "| signal | bits | role | power-on | meaning |\n|---|---|---|---|---|\n";
     let declarations = entry.full().declarations().expect("a netlist");
@@ -248,13 +255,12 @@ fn memory_row(memory: &MemoryDeclaration) -> String {
 /// as they stand.
 fn proofs(patent: &str, stands: &str) -> String {
     let mut text = String::from(
-        "| circuit | width | states | transitions | depth | holds |\n|---|---|---|---|---|---|\n",
+        "| circuit | widths | states | transitions | depth | holds |\n|---|---|---|---|---|---|\n",
     );
-    let entries: Vec<_> = of(patent)
-        .filter_map(|entry| Some((entry, entry.proof_width?)))
-        .collect();
-    let rows = entries.into_par_iter().map(|(entry, width)| {
-        let circuit = entry.make(&[width]).expect("it is made for its proof");
+    let entries: Vec<_> = of(patent).filter(|entry| entry.proved).collect();
+    let rows = entries.into_par_iter().map(|entry| {
+        let circuit = entry.proof(&[]).expect("it is made for its proof");
+        let width = widths(entry, Base::Small);
         let holds = circuit.invariants().join("; ");
         if let Some(size) = long_proof(stands, &format!("| `{}` | {width} | ", entry.name)) {
             return format!("{size} {holds} |\n");
@@ -287,11 +293,12 @@ fn long_proof<'s>(stands: &'s str, begin: &str) -> Option<&'s str> {
 
 /// What breaks first in the literal variant.
 fn literal() -> String {
-    let mut text = String::from("| circuit | width | what breaks first |\n|---|---|---|\n");
+    let mut text = String::from("| circuit | widths | what breaks first |\n|---|---|---|\n");
     for name in ["pulse_generator", "axis", "unit_law"] {
         let entry = find(name).expect("it is in the catalogue");
-        let width = entry.proof_width.expect("it is proved");
-        let circuit = entry.make(&[width, 1]).expect("it has a literal variant");
+        let width = widths(entry, Base::Small);
+        let literal = [Pair::new("variant", "literal")];
+        let circuit = entry.proof(&literal).expect("it has a literal variant");
         let verdict = circuit.prove(&ProofSearch::default(), &mut |_| {});
         let Ok(Verdict::Broken { report, .. }) = verdict else {
             panic!("the literal {name} is not broken: {verdict:?}");

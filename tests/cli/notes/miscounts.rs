@@ -23,7 +23,7 @@ signals! { for Line as c;
     }
     struct Parts {
         generator: Part<PulseGenerator>(PulseGenerator { width: 7, variant: c.variant }),
-        sync: Part<SyncStage>(SyncStage),
+        sync: Part<SyncStage>(SyncStage {}),
     }
     struct Net { step: Bit }
 }

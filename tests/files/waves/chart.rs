@@ -9,7 +9,7 @@ const NOTE: &str = "\
 let chart = 1;
 ```
 
-```chart part[9, 3] it goes up, then down
+```chart part[step=9, names=['a]', 3]] it goes up, then down
 // A comment.
 tick          0     1     2     3
 
@@ -32,7 +32,12 @@ fn a_chart_that_holds() {
     let charts = parse(NOTE).unwrap();
     assert_eq!(charts.len(), 1);
     assert_eq!((charts[0].circuit.as_str(), charts[0].line), ("part", 7));
-    assert_eq!(charts[0].args, [9, 3]);
+    let pairs: Vec<_> = charts[0]
+        .pairs
+        .iter()
+        .map(|pair| pair.to_string())
+        .collect();
+    assert_eq!(pairs, ["step=9", "names=['a]', 3]"]);
     assert_eq!(charts[0].title, "it goes up, then down");
     charts[0].run(&Part).unwrap();
 }
@@ -44,7 +49,7 @@ fn a_mismatch_shows_what_the_circuit_does() {
     expect![[r#"
         line 13: tick 2: level is 6, the chart says 5
         what the circuit does:
-        ```chart part[9, 3] it goes up, then down
+        ```chart part[step=9, names=['a]', 3]] it goes up, then down
         tick          0     1     2     3
         > step        3     .     .     7
         > up          #     #     _     _
@@ -187,14 +192,19 @@ fn what_can_be_wrong_with_a_chart() {
 
 #[test]
 fn what_can_be_wrong_with_a_fence() {
-    let fence = "line 1: a chart begins with ```chart CIRCUIT or ```chart CIRCUIT[NUMBER, ...]";
+    let fence = "line 1: a chart begins with ```chart CIRCUIT or ```chart CIRCUIT[KEY=VALUE, ...]";
     for note in [
         "```chart\n```",
         "```chart part[3\n```",
-        "```chart part[x]\n```",
         "```chart part-3\n```",
     ] {
         assert_eq!(parse(note).unwrap_err().to_string(), fence, "{note}");
+    }
+    // The numbers of earlier charts.
+    for (pairs, text, problem) in [("9, 3", "9", "no '='"), ("a=1, =3", "=3", "no key")] {
+        let error = parse(&format!("```chart part[{pairs}]\n```")).unwrap_err();
+        let told = format!("line 1: `{text}`: {problem}; allowed: key=value");
+        assert_eq!(error.to_string(), told);
     }
     let open = "text\n```chart part\ntick 0\n= level 0\n";
     assert_eq!(

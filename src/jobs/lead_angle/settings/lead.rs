@@ -14,7 +14,10 @@ impl Settings {
         match self.lead {
             LeadBy::Speed => LeadFrom::Speed,
             LeadBy::Table => LeadFrom::Table(lead_table(self)),
-            LeadBy::Time => LeadFrom::Time(self.history.memory(), self.form),
+            LeadBy::Time => LeadFrom::Time {
+                memory: self.history.memory(),
+                form: self.form,
+            },
         }
     }
 
