@@ -120,7 +120,9 @@ impl Changes {
         }
         let widths = entry.widths(Base::Full, &[]);
         if let Some((key, bits)) = bits.split_once('=') {
-            let named = widths.iter().find(|(name, _)| name.rsplit('.').next() == Some(key));
+            let named = widths
+                .iter()
+                .find(|(name, _)| name.rsplit('.').next() == Some(key));
             let near = named.map_or(key, |(name, _)| name);
             let problem = format!("{key} is a key");
             return Err(refuse(problem, format!("--set {near}={bits}")));

@@ -123,19 +123,15 @@ struct Made<'c> {
     entry: &'static Entry,
     base: Base,
     pairs: Vec<Pair>,
+    circuit: Box<dyn AnyModel>,
     model: Model,
     charts: Vec<&'c Chart>,
 }
 
 impl Made<'_> {
-    fn circuit(&self) -> Option<Box<dyn AnyModel>> {
-        self.entry.made(self.base, &self.pairs).ok()
-    }
-
-    /// It with a fault; nothing where the fault has no place in it.
+    /// Returns the netlist with a fault; nothing where the fault has no place in it.
     fn mutated(&self, mutation: &Mutation) -> Option<Result<Model, EngineError>> {
-        let circuit = self.circuit()?;
-        mutated(mutation, || circuit.model())
+        mutated(mutation, || self.circuit.model())
     }
 
     /// Its charts hold; they are some of `all`.
@@ -184,10 +180,7 @@ impl Campaign {
         let mut found: Vec<Mutation> = Vec::new();
         let asked = if pairs.is_empty() { own.len() } else { 1 };
         for made in &own[..asked] {
-            let Some(circuit) = made.circuit() else {
-                continue;
-            };
-            for mutation in mutations(made.model.name(), || circuit.model()).1 {
+            for mutation in mutations(made.model.name(), || made.circuit.model()).1 {
                 if !found.contains(&mutation) {
                     found.push(mutation);
                 }
@@ -225,7 +218,8 @@ impl Campaign {
                 circuit: of.name,
                 refused,
             };
-            let model = of.made(Base::Small, pairs).map_err(refused)?.model()?;
+            let circuit = of.made(Base::Small, pairs).map_err(refused)?;
+            let model = circuit.model()?;
             let inside = &model.design().modules[..model.design().modules.len() - 1];
             let is_inside = inside
                 .iter()
@@ -235,6 +229,7 @@ impl Campaign {
                 base: Base::Small,
                 pairs: pairs.to_vec(),
                 charts: charts.into_iter().map(|(_, chart)| chart).collect(),
+                circuit,
                 model,
             };
             if of.name == entry.name {
@@ -255,6 +250,7 @@ impl Campaign {
                 base: Base::Full,
                 pairs: pairs.to_vec(),
                 model: made.model()?,
+                circuit: made,
                 charts: Vec::new(),
             };
             own.insert(0, asked);
@@ -384,7 +380,7 @@ impl Campaign {
     }
 }
 
-/// Whether a module is of this circuit: another of the same has a number behind its name.
+/// True if a module is of this circuit: another of the same has a number behind its name.
 fn of_circuit(module: &str, circuit: &str) -> bool {
     let rest = module.strip_prefix(circuit);
     rest.is_some_and(|rest| {

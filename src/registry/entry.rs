@@ -22,6 +22,8 @@ pub struct Entry {
     pub swept: bool,
     /// The keys below `widths` that it uses; all where there are none here.
     pub(super) uses: &'static [&'static str],
+    /// Other keys without an effect.
+    pub(super) idle: &'static [&'static str],
     pub(super) maker: &'static dyn Maker,
 }
 
@@ -110,7 +112,8 @@ impl Entry {
     /// True for a key that changes nothing of this circuit.
     pub(super) fn is_idle(&self, key: &str) -> bool {
         let width = key.rsplit_once("widths.");
-        width.is_some_and(|(_, width)| !self.uses.is_empty() && !self.uses.contains(&width))
+        self.idle.contains(&key)
+            || width.is_some_and(|(_, width)| !self.uses.is_empty() && !self.uses.contains(&width))
     }
 }
 
@@ -188,7 +191,8 @@ pub(super) fn specified<C: Specified>(circuit: C) -> Box<dyn AnyCircuit> {
 
 /// An entry: type, patent and block, the full and the small circuit.
 ///
-/// `uses: [point, data]` are the keys below `widths` that have an effect, where there are others.
+/// `uses: [point, data]` are the keys below `widths` that have an effect, where there are others;
+/// `idle: ["loops.position"]` are other keys that have none.
 /// `proved: true` says that the small circuit is proved by exhaustion. `swept: Law::new` is a law of it,
 /// and `least:` the circuit that it has the fewest cases of. Where a type stands in the catalogue more
 /// than once, `named` gives name and line.
@@ -198,6 +202,7 @@ macro_rules! entry {
         full: $full:expr,
         small: $small:expr
         $(, uses: [$($used:ident),+])?
+        $(, idle: [$($idle:literal),+])?
         $(, proved: $proved:literal)?
         $(, swept: $law:path, least: $least:expr)?
         $(, named: $named:literal, $about:literal)? $(,)?
@@ -209,6 +214,7 @@ macro_rules! entry {
             proved: entry!(@either false $(, $proved)?),
             swept: entry!(@is $($law)?),
             uses: &[$($(stringify!($used)),+)?],
+            idle: &[$($($idle),+)?],
             maker: &$crate::registry::entry::Of::<$circuit> {
                 full: || $full,
                 small: || $small,

@@ -9,20 +9,22 @@ use toml::{Table, Value};
 /// The largest width, or number of stages, axes and the like.
 const MOST: i64 = 1 << 12;
 
-/// Sizes that count something else than bits.
+/// Sizes that count something else than the bits of a word.
 const COUNTS: &[&str] = &[
     "axes",
     "first_axes",
     "records",
     "second_axes",
     "settings",
+    "settling",
+    "smoothing",
     "stages",
 ];
 
 /// A value that no key takes.
 const NO_VALUE: &str = "?";
 
-/// What is wrong with a table, and at which key.
+/// Fault of a table, with its key.
 pub type Source = serde_path_to_error::Error<toml::de::Error>;
 
 /// A key of a circuit with its values.
@@ -42,9 +44,9 @@ pub struct Key {
 pub struct WrongPair {
     /// The pair.
     pub pair: Pair,
-    /// What is wrong with it.
+    /// Fault of the value or key.
     pub problem: String,
-    /// What would be right.
+    /// Allowed keys or values.
     pub allowed: String,
 }
 
@@ -184,7 +186,7 @@ fn names(entry: &Entry, table: &Table) -> Vec<String> {
     names
 }
 
-/// What the reader says where a key has a value that none takes.
+/// Message of the reader for a value that no key takes.
 fn message(entry: &Entry, table: &Table, key: &str) -> String {
     let table = changed(table.clone(), &Pair::new(key, NO_VALUE));
     let error = read(entry, &table).err();
@@ -246,7 +248,7 @@ fn too_large(entry: &Entry, table: &Table, pair: &Pair) -> Option<WrongPair> {
     })
 }
 
-/// What is wrong with a pair by itself.
+/// Finds the fault of a pair by itself.
 fn wrong(entry: &Entry, table: &Table, pair: &Pair) -> Option<WrongPair> {
     if is_lost(entry, table, pair) {
         return Some(unknown(entry, table, pair));

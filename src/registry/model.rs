@@ -10,7 +10,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// A circuit, its type forgotten.
-pub trait AnyModel {
+pub trait AnyModel: Send + Sync {
     /// Its name.
     fn name(&self) -> &'static str;
     /// What it does, in one line.

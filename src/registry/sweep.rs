@@ -8,7 +8,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// A law with its circuit, its type forgotten.
-pub trait AnySweep: Sync + AnyModel {
+pub trait AnySweep: AnyModel {
     /// What holds.
     fn law(&self) -> &str;
     /// The number of cases.

@@ -48,7 +48,7 @@ pub struct Pair {
 pub struct PairError {
     /// The text.
     pub text: String,
-    /// What it lacks.
+    /// Missing part.
     pub problem: &'static str,
 }
 

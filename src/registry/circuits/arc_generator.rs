@@ -40,8 +40,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         RotationRow, "JPH0743606B2 (ロ), a row of R",
         full: row(FULL),
-        small: row(SMALL),
-        uses: [point, coefficient, data],
+        small: row(SMALL), uses: [point, coefficient, data],
     ),
     entry!(
         Rotation, "JPH0743606B2 (ロ)",
@@ -52,8 +51,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         PositionCommand, "JPH0743606B2 [4]",
         full: FULL.command(0),
-        small: Widths { position: 2, ..SMALL }.command(0),
-        uses: [position, point, data],
+        small: Widths { position: 2, ..SMALL }.command(0), uses: [position, point, data],
         proved: true,
     ),
     entry!(
@@ -81,8 +79,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         AngleStep, "JPH0743606B2, prior art: Δθ",
         full: AngleStep { width: FULL.coefficient },
-        small: AngleStep { width: 4 },
-        proved: true,
+        small: AngleStep { width: 4 }, proved: true,
     ),
     entry!(
         SineWords, "JPH0743606B2, prior art: sin, cos, vers",
@@ -102,8 +99,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         VectorRow, "JPH0743606B2, prior art [3], a row",
         full: vector_row(FULL),
-        small: vector_row(SMALL),
-        uses: [point, coefficient, data],
+        small: vector_row(SMALL), uses: [point, coefficient, data],
     ),
     entry!(
         Conventional, "JPH0743606B2, prior art: Figs 5 and 6",

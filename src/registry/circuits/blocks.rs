@@ -19,32 +19,27 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         MulDiv, "block: sequential arithmetic",
         full: MulDiv { multiplier: 25, word: 58 },
-        small: MulDiv { multiplier: 2, word: 3 },
-        proved: true,
+        small: MulDiv { multiplier: 2, word: 3 }, proved: true,
     ),
     entry!(
         Scaler, "block: a gain, of CN104204977 and others",
         full: Scaler { gain: 24, value: 58 },
-        small: Scaler { gain: 3, value: 4 },
-        proved: true,
+        small: Scaler { gain: 3, value: 4 }, proved: true,
     ),
     entry!(
         EnableCounter, "block: scan and sample enables, 30 of JP3640909B2",
         full: EnableCounter { width: 24 },
-        small: EnableCounter { width: 3 },
-        proved: true,
+        small: EnableCounter { width: 3 }, proved: true,
     ),
     entry!(
         QuadratureCounter, "block: 13 of JP3608587B2 and others",
         full: QuadratureCounter { width: 32 },
-        small: QuadratureCounter { width: 3 },
-        proved: true,
+        small: QuadratureCounter { width: 3 }, proved: true,
     ),
     entry!(
         DifferenceColumn, "block: a difference of JPH0743606B2 [5], [10]",
         full: engine(Widths::default()).difference(1),
-        small: engine(Widths { whole: 3, part: 3, data: 3 }).difference(1),
-        proved: true,
+        small: engine(Widths { whole: 3, part: 3, data: 3 }).difference(1), proved: true,
     ),
     entry!(
         DifferenceEngine, "block: polynomials of JPH0743606B2, CN104204977",
@@ -54,14 +49,12 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         CoefficientControl, "block: which bit of a sequential product",
         full: CoefficientControl { coefficient: 42 },
-        small: CoefficientControl { coefficient: 4 },
-        proved: true,
+        small: CoefficientControl { coefficient: 4 }, proved: true,
     ),
     entry!(
         Shifter, "block: CORDIC",
         full: Shifter { width: 55 },
-        small: Shifter { width: 4 },
-        proved: true,
+        small: Shifter { width: 4 }, proved: true,
     ),
     entry!(
         CordicState, "block: sine and cosine",
@@ -81,7 +74,6 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         RecordSequencer, "block: record after record",
         full: RecordSequencer { modulus: 41, samples: 20, data: 42, waits: false },
-        small: RecordSequencer { modulus: 2, samples: 2, data: 5, waits: false },
-        proved: true,
+        small: RecordSequencer { modulus: 2, samples: 2, data: 5, waits: false }, proved: true,
     ),
 ];

@@ -63,14 +63,12 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         GrayReceiver, "JPH0646367B2 10, words of an absolute encoder",
         full: GrayReceiver { code: 17 },
-        small: GrayReceiver { code: 3 },
-        proved: true,
+        small: GrayReceiver { code: 3 }, proved: true,
     ),
     entry!(
         Unwrapper, "JPH0646367B2 10, places of a turn or a pitch",
         full: Unwrapper { place: 17, position: 24 },
-        small: Unwrapper { place: 3, position: 4 },
-        proved: true,
+        small: Unwrapper { place: 3, position: 4 }, proved: true,
     ),
     entry!(
         PhaseDetector, "JPH0646367B2 10, a phase-shift transducer",
@@ -80,8 +78,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         PhaseCounter, "JPH0646367B2 10, carrier and crossings",
         full: PhaseCounter { phase: 17 },
-        small: PhaseCounter { phase: 3 },
-        proved: true,
+        small: PhaseCounter { phase: 3 }, proved: true,
     ),
     entry!(
         ResolverDetector, "JPH0646367B2 10, a resolver",
@@ -96,56 +93,47 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         TrackingLoop, "JPH0646367B2 10, error of an angle",
         full: TrackingLoop::new(17),
-        small: TrackingLoop { angle: 4, smoothing: 1, settling: 1 },
-        proved: true,
+        small: TrackingLoop { angle: 4, smoothing: 1, settling: 1 }, proved: true,
     ),
     entry!(
         RatioLogic, "JPH0646367B2 13",
         full: RatioLogic { stages: 199 },
-        small: RatioLogic { stages: 3 },
-        proved: true,
+        small: RatioLogic { stages: 3 }, proved: true,
     ),
     entry!(
         PositionHistory, "JPH0646367B2 11 + 14",
         full: PositionHistory { stages: 199, position: 24 },
-        small: PositionHistory { stages: 2, position: 2 },
-        proved: true,
+        small: PositionHistory { stages: 2, position: 2 }, proved: true,
     ),
     entry!(
         RamHistory, "JPH0646367B2 11 + 14, as a RAM",
         full: RamHistory { stages: 199, position: 24 },
-        small: RamHistory { stages: 2, position: 2 },
-        proved: true,
+        small: RamHistory { stages: 2, position: 2 }, proved: true,
     ),
     entry!(
         DifferenceHistory, "JPH0646367B2 11 + 15 + 14",
         full: DifferenceHistory { stages: 199, position: 24 },
-        small: DifferenceHistory { stages: 2, position: 2 },
-        proved: true,
+        small: DifferenceHistory { stages: 2, position: 2 }, proved: true,
     ),
     entry!(
         DividedTime, "JPH0646367B2, without 13",
         full: DividedTime { stages: 199, one: false },
-        small: DividedTime { stages: 3, one: false },
-        proved: true,
+        small: DividedTime { stages: 3, one: false }, proved: true,
     ),
     entry!(
         TimeLimit, "JPH0646367B2, without 13",
         full: TimeLimit { stages: 1990 },
-        small: TimeLimit { stages: 30 },
-        proved: true,
+        small: TimeLimit { stages: 30 }, proved: true,
     ),
     entry!(
         Lead, "JPH0646367B2 15 + 16",
         full: Lead { position: 24, one: false },
-        small: Lead { position: 4, one: false },
-        proved: true,
+        small: Lead { position: 4, one: false }, proved: true,
     ),
     entry!(
         LeadProducts, "JPH0646367B2 17, without 15",
         full: LeadProducts { position: 24, one: false },
-        small: LeadProducts { position: 4, one: false },
-        proved: true,
+        small: LeadProducts { position: 4, one: false }, proved: true,
     ),
     entry!(
         TimeLead, "JPH0646367B2 11, 13–16",
@@ -161,14 +149,12 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         SpeedDetector, "JPH0646367B2 2 of Fig. 7",
         full: SpeedDetector { position: 24, gate: 16 },
-        small: SpeedDetector { position: 2, gate: 2 },
-        proved: true,
+        small: SpeedDetector { position: 2, gate: 2 }, proved: true,
     ),
     entry!(
         SpeedLead, "JPH0646367B2 1 + 2 of Fig. 7",
         full: SpeedLead { position: 24, gate: 16 },
-        small: SpeedLead { position: 2, gate: 2 },
-        proved: true,
+        small: SpeedLead { position: 2, gate: 2 }, proved: true,
     ),
     entry!(
         TableLead, "JPH0646367B2 1 + 2 of Fig. 7, from a memory",
@@ -187,44 +173,37 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         LeadPlacement, "JPH0646367B2 17, 20",
         full: LeadPlacement { position: 24, placement: Placement::Position },
-        small: LeadPlacement { position: 4, placement: Placement::Position },
-        proved: true,
+        small: LeadPlacement { position: 4, placement: Placement::Position }, proved: true,
     ),
     entry!(
         Comparator, "JPH0646367B2 19",
         full: Comparator { position: 24, comparing: Comparing::Crossing },
-        small: Comparator { position: 4, comparing: Comparing::Crossing },
-        proved: true,
+        small: Comparator { position: 4, comparing: Comparing::Crossing }, proved: true,
     ),
     entry!(
         TargetSetter, "JPH0646367B2 18",
         full: TargetSetter { step: 4, position: 24, speed: 16 },
-        small: TargetSetter { step: 2, position: 2, speed: 2 },
-        proved: true,
+        small: TargetSetter { step: 2, position: 2, speed: 2 }, proved: true,
     ),
     entry!(
         TimeData, "JPH0646367B2 21 = 24 + 25, 29",
         full: TimeData::new(4, 11),
-        small: TimeData::new(2, 2),
-        proved: true,
+        small: TimeData::new(2, 2), proved: true,
     ),
     entry!(
         CompletionDetector, "JPH0646367B2 26",
         full: CompletionDetector { position: 24, time: 16 },
-        small: CompletionDetector { position: 2, time: 2 },
-        proved: true,
+        small: CompletionDetector { position: 2, time: 2 }, proved: true,
     ),
     entry!(
         TouchProbe, "JPH0646367B2, any operation",
         full: TouchProbe { position: 24 },
-        small: TouchProbe { position: 4 },
-        proved: true,
+        small: TouchProbe { position: 4 }, proved: true,
     ),
     entry!(
         StopError, "JPH0646367B2 27, 30, 31",
         full: StopError { position: 24, sign: Sign::Converging },
-        small: StopError { position: 4, sign: Sign::Converging },
-        proved: true,
+        small: StopError { position: 4, sign: Sign::Converging }, proved: true,
     ),
     entry!(
         CorrectionArithmetic, "JPH0646367B2 28",
@@ -234,14 +213,12 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         Refinement, "JPH0646367B2 28, second order",
         full: Refinement { time: 11, position: 24 },
-        small: Refinement { time: 2, position: 2 },
-        proved: true,
+        small: Refinement { time: 2, position: 2 }, proved: true,
     ),
     entry!(
         ExactRelation, "JPH0646367B2 28, exact relation",
         full: ExactRelation { position: 24 },
-        small: ExactRelation { position: 4 },
-        proved: true,
+        small: ExactRelation { position: 4 }, proved: true,
     ),
     entry!(
         Correction, "JPH0646367B2 23 = 27, 28, 30, 31",
@@ -263,8 +240,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         StepSequencer, "JPH0646367B2, step numbers",
         full: StepSequencer { step: 4, position: 24, rest: 16 },
-        small: StepSequencer { step: 2, position: 2, rest: 2 },
-        proved: true,
+        small: StepSequencer { step: 2, position: 2, rest: 2 }, proved: true,
     ),
     entry!(
         Compensator, "JPH0646367B2, Figs 1, 5 and 6",

@@ -51,14 +51,12 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         TargetData, "JP3608587B2 20",
         full: LinearInterpolator::default().targets(),
-        small: TargetData { widths: Widths { position: 2, ..SMALL }, settings: 1 },
-        proved: true,
+        small: TargetData { widths: Widths { position: 2, ..SMALL }, settings: 1 }, proved: true,
     ),
     entry!(
         Sequencer, "JP3608587B2 ¶0005, ¶0014",
         full: Sequencer { position: 32, master: MasterAxis::Longer },
-        small: Sequencer { position: 2, master: MasterAxis::Longer },
-        proved: true,
+        small: Sequencer { position: 2, master: MasterAxis::Longer }, proved: true,
     ),
     entry!(
         Trapezoid, "JP3608587B2 14, control",
@@ -73,8 +71,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         Differentiator, "JP3608587B2 21 = 22 + 23",
         full: Differentiator { position: 32 },
-        small: Differentiator { position: 3 },
-        proved: true,
+        small: Differentiator { position: 3 }, proved: true,
     ),
     entry!(
         Accumulator, "JP3608587B2 24, registers",
@@ -90,20 +87,17 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         LineLaw, "JP3608587B2 24, with ghosts",
         full: LineLaw { integrator: integrator(32) },
-        small: LineLaw { integrator: integrator(3) },
-        proved: true,
+        small: LineLaw { integrator: integrator(3) }, proved: true,
     ),
     entry!(
         AxisSwitch, "JP3608587B2 25, Figs 5 and 6",
         full: AxisSwitch { position: 32 },
-        small: AxisSwitch { position: 2 },
-        proved: true,
+        small: AxisSwitch { position: 2 }, proved: true,
     ),
     entry!(
         CycleGate, "JP3608587B2, in-position check",
         full: CycleGate {},
-        small: CycleGate {},
-        proved: true,
+        small: CycleGate {}, proved: true,
     ),
     entry!(
         LinearInterpolator, "JP3608587B2 14, 20, 21, 24, 25",
@@ -113,14 +107,12 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         PositionControl, "JP3608587B2 10 + 11 + 12",
         full: PositionControl::default(),
-        small: PositionControl { widths: loop_widths(3) },
-        proved: true,
+        small: PositionControl { widths: loop_widths(3) }, proved: true,
     ),
     entry!(
         PositionLoop, "JP3608587B2 10–13",
         full: PositionLoop::default(),
-        small: PositionLoop { widths: loop_widths(2) },
-        proved: true,
+        small: PositionLoop { widths: loop_widths(2) }, proved: true,
     ),
     entry!(
         Conventional, "JP3608587B2 14, 20, Fig. 3",
@@ -130,12 +122,13 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         Controller, "JP3608587B2 1, Fig. 5",
         full: Controller::new(CommandSource::Linear(LinearInterpolator::default())),
-        small: controller(CommandSource::Linear(interpolator())),
+        small: controller(CommandSource::Linear(interpolator())), idle: ["loops.position"],
     ),
     entry!(
         Controller, "JP3608587B2 1, Fig. 3",
         full: Controller::new(CommandSource::Conventional(Conventional::default())),
         small: controller(CommandSource::Conventional(Conventional { widths: SMALL })),
+        idle: ["loops.position"],
         named: "conventional_controller",
             "a position pattern for each axis, with the position loops of X and Y",
     ),

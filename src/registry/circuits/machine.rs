@@ -21,14 +21,12 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         Enables, "system, rates",
         full: Enables::default(),
-        small: Enables { width: 2 },
-        proved: true,
+        small: Enables { width: 2 }, proved: true,
     ),
     entry!(
         CommandJoin, "system, commands",
         full: CommandJoin { line: 32, arc: 24 },
-        small: CommandJoin { line: 3, arc: 2 },
-        proved: true,
+        small: CommandJoin { line: 3, arc: 2 }, proved: true,
     ),
     entry!(Machine, "system", full: machine(), small: machine()),
 ];

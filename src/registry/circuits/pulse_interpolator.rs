@@ -61,50 +61,42 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         UnitTimeRegister, "JP3640909B2 ¶0016",
         full: UnitTimeRegister { width: 24, period: 1000 },
-        small: UnitTimeRegister { width: 3, period: 1 },
-        proved: true,
+        small: UnitTimeRegister { width: 3, period: 1 }, proved: true,
     ),
     entry!(
         PulseGenerator, "JP3640909B2 20 = 201 + 202",
         full: PulseGenerator { width: 16, variant: Variant::Safe },
-        small: PulseGenerator { width: 3, variant: Variant::Safe },
-        proved: true,
+        small: PulseGenerator { width: 3, variant: Variant::Safe }, proved: true,
     ),
     entry!(
         SyncStage, "JP3640909B2 40",
         full: SyncStage {},
-        small: SyncStage {},
-        proved: true,
+        small: SyncStage {}, proved: true,
     ),
     entry!(
         PatternMemory, "JP3640909B2 10",
         full: memory(),
-        small: PatternMemory::new(3, 1, 0),
-        proved: true,
+        small: PatternMemory::new(3, 1, 0), proved: true,
     ),
     entry!(
         AddressSequencer, "JP3640909B2 50",
         full: AddressSequencer { width: 12 },
-        small: AddressSequencer { width: 3 },
-        proved: true,
+        small: AddressSequencer { width: 3 }, proved: true,
     ),
     entry!(
         CommandPort, "JP3640909B2 ¶0018, ¶0026",
         full: CommandPort { address: 12, period: 24, free_running: None },
-        small: CommandPort { address: 3, period: 3, free_running: None },
-        proved: true,
+        small: CommandPort { address: 3, period: 3, free_running: None }, proved: true,
     ),
     entry!(
         Axis, "JP3640909B2 10 + 20 + 40",
         full: Axis { memory: memory(), variant: Variant::Safe },
-        small: Axis { memory: PatternMemory::new(3, 1, 0), variant: Variant::Safe },
-        proved: true,
+        small: Axis { memory: PatternMemory::new(3, 1, 0), variant: Variant::Safe }, proved: true,
     ),
     entry!(
         UnitLaw, "JP3640909B2 30 + 20 + 40, with ghosts",
         full: UnitLaw { width: 16, variant: Variant::Safe },
-        small: UnitLaw { width: 3, variant: Variant::Safe },
-        proved: true,
+        small: UnitLaw { width: 3, variant: Variant::Safe }, proved: true,
     ),
     entry!(
         Group, "JP3640909B2 1",
@@ -137,8 +129,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         PulseTrain, "JP3640909B2 6x, 6y, Fig. 5",
         full: PulseTrain { half_period: 16, pulses: 17 },
-        small: PulseTrain { half_period: 3, pulses: 3 },
-        proved: true,
+        small: PulseTrain { half_period: 3, pulses: 3 }, proved: true,
     ),
     entry!(
         MotorController, "JP3640909B2 5, Fig. 5",

@@ -101,26 +101,22 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         SegmentStore, "CN104204977 2, 3: segments",
         full: SegmentStore { widths: FULL.point() },
-        small: SegmentStore { widths: PointWidths { data: 4, ..POINTS } },
-        uses: [segment, data],
+        small: SegmentStore { widths: PointWidths { data: 4, ..POINTS } }, uses: [segment, data],
     ),
     entry!(
         ArcAngle, "CN104204977 2, 3: arc",
         full: ArcAngle { widths: FULL.point() },
-        small: ArcAngle { widths: POINTS },
-        uses: [point, curvature, angle],
+        small: ArcAngle { widths: POINTS }, uses: [point, curvature, angle],
     ),
     entry!(
         LengthPowers, "CN104204977 2, 3: spline",
         full: LengthPowers { widths: FULL.point() },
-        small: LengthPowers { widths: POINTS },
-        uses: [point, radius],
+        small: LengthPowers { widths: POINTS }, uses: [point, radius],
     ),
     entry!(
         AxisRow, "CN104204977 (1), (5)",
         full: AxisRow { widths: FULL.point(), coordinate: 0 },
-        small: AxisRow { widths: POINTS, coordinate: 0 },
-        uses: [point, radius, coefficient, data],
+        small: AxisRow { widths: POINTS, coordinate: 0 }, uses: [point, radius, coefficient, data],
     ),
     entry!(
         PointSequencer, "CN104204977 2, 3",
@@ -132,24 +128,22 @@ pub(super) const CIRCUITS: &[Entry] = &[
         PathPoint, "CN104204977 2, 3",
         full: PathPoint { widths: FULL.point(), axes: 3, radius_word: RADIUS },
         small: PathPoint { widths: POINTS, axes: 2, radius_word: RADIUS },
+        uses: [segment, point, radius, coefficient, curvature, angle, data],
     ),
     entry!(
         LengthClamp, "CN104204977 2, ends",
         full: LengthClamp { width: FULL.point, back: 0 },
-        small: LengthClamp { width: 4, back: 0 },
-        proved: true,
+        small: LengthClamp { width: 4, back: 0 }, proved: true,
     ),
     entry!(
         PathLength, "CN104204977 1, qc",
         full: PathLength { width: FULL.point },
-        small: PathLength { width: 4 },
-        proved: true,
+        small: PathLength { width: 4 }, proved: true,
     ),
     entry!(
         VectorCorrection, "CN104204977 4",
         full: VectorCorrection { width: FULL.point, correction: Correction::Vector },
-        small: VectorCorrection { width: 3, correction: Correction::Vector },
-        proved: true,
+        small: VectorCorrection { width: 3, correction: Correction::Vector }, proved: true,
     ),
     entry!(
         ErrorFeedback, "CN104204977 prior art: errors along and across the path",
@@ -160,14 +154,12 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         PeriodJoin, "CN104204977 Fig. 1, order",
         full: PeriodJoin { wait: 200 },
-        small: PeriodJoin { wait: 2 },
-        proved: true,
+        small: PeriodJoin { wait: 2 }, proved: true,
     ),
     entry!(
         ServoArithmetic, "CN104204977 26 to 31",
         full: ServoArithmetic { widths: FULL.servo() },
-        small: ServoArithmetic { widths: SERVO },
-        uses: [count, position, gain, torque],
+        small: ServoArithmetic { widths: SERVO }, uses: [count, position, gain, torque],
     ),
     entry!(
         Servo, "CN104204977 11",
