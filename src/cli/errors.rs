@@ -71,6 +71,16 @@ impl<'a> Error<'a> {
                 };
                 ("argument", vec![found])
             }
+            Failure::Pairs(wrong) => {
+                let found = wrong.iter().map(|wrong| Found {
+                    file: None,
+                    line: None,
+                    field: &wrong.pair.key,
+                    problem: &wrong.problem,
+                    allowed: &wrong.allowed,
+                });
+                ("argument", found.collect())
+            }
             Failure::File(_) => ("file", Vec::new()),
             Failure::Run(RunError::Violation { .. }) | Failure::Check(_) => ("check", Vec::new()),
             Failure::Run(_) => ("run", Vec::new()),

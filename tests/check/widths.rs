@@ -87,7 +87,7 @@ fn every_variant_is_made() {
             let pairs = variants.map(move |variant| [Pair::new(key.name.clone(), variant)]);
             pairs.filter_map(move |pair| {
                 let ends = BASES.map(|base| made(entry, base, &pair));
-                let is_made = ends.iter().any(|end| *end == Ok(true));
+                let is_made = ends.contains(&Ok(true));
                 (!is_made).then(|| format!("{}: {}: {ends:?}", entry.name, pair[0]))
             })
         })

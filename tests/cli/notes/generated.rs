@@ -161,10 +161,10 @@ fn widths(entry: &Entry, base: Base) -> String {
     if sizes.len() > LISTED {
         return String::new();
     }
-    let sizes = sizes.into_iter().map(|(key, size)| match key.as_str() {
-        "axes" | "records" | "settings" => format!("{key} = {size}"),
-        key if key.ends_with("stages") => format!("{size} {key}"),
-        key => format!("{key} = {size} bits"),
+    let widths = entry.widths(base, &[]);
+    let sizes = sizes.into_iter().map(|size| match (&size, widths.contains(&size)) {
+        ((key, bits), true) => format!("{key} = {bits} bits"),
+        ((key, count), false) => format!("{key} = {count}"),
     });
     sizes.collect::<Vec<_>>().join(", ")
 }
