@@ -19,7 +19,7 @@ pub struct Changes {
     width: Vec<String>,
     /// The former way to give values.
     #[serde(skip)]
-    #[arg(long, hide = true, num_args = 0.., allow_hyphen_values = true)]
+    #[arg(long, hide = true, num_args = 0.., allow_negative_numbers = true)]
     with: Option<Vec<String>>,
 }
 

@@ -258,7 +258,14 @@ fn wrong(entry: &Entry, table: &Table, pair: &Pair) -> Option<WrongPair> {
     if message.starts_with("unknown field") && pair.key.starts_with(&path) {
         return Some(unknown(entry, table, pair));
     }
-    let (problem, allowed) = split(message);
+    // A number where a variant stands: the names are those that a wrong name is told.
+    let (problem, allowed) = match message {
+        "wanted string or table" if path == pair.key => {
+            let names = split(&self::message(entry, table, &path)).1;
+            (format!("is {}", pair.value), names)
+        }
+        message => split(message),
+    };
     let problem = match path == pair.key {
         true => problem,
         false => format!("{path}: {problem}"),

@@ -70,15 +70,15 @@ fn the_table_is_printed_as_json() {
         })
         .collect();
     let expected = [
-        ("sync_stage", "proof"),
-        ("address_sequencer", "proof"),
+        ("touch_probe", "proof"),
+        ("differentiator", "proof"),
         ("integrator", "sweep"),
-        ("enable_counter", "proof"),
+        ("axis_switch", "proof"),
     ];
     assert_eq!(named, expected);
     assert_eq!(
         (&rows[0]["states"], &rows[0]["depth"]),
-        (&json!(2), &json!(1))
+        (&json!(32), &json!(2))
     );
     // Four words of three bits, but those of a master that does not move.
     assert_eq!(rows[2]["states"], 7 << 9);

@@ -140,7 +140,7 @@ fn a_seed_names_its_bytes() {
     let files = |seed: &str| {
         let bench = Bench::new();
         bench.succeed(&verilog(
-            "axis",
+            "address_sequencer",
             &[&TESTBENCH[..], &["--seed", seed]].concat(),
         ));
         let names = bench

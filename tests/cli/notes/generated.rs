@@ -162,10 +162,12 @@ fn widths(entry: &Entry, base: Base) -> String {
         return String::new();
     }
     let widths = entry.widths(base, &[]);
-    let sizes = sizes.into_iter().map(|size| match (&size, widths.contains(&size)) {
-        ((key, bits), true) => format!("{key} = {bits} bits"),
-        ((key, count), false) => format!("{key} = {count}"),
-    });
+    let sizes = sizes
+        .into_iter()
+        .map(|size| match (&size, widths.contains(&size)) {
+            ((key, bits), true) => format!("{key} = {bits} bits"),
+            ((key, count), false) => format!("{key} = {count}"),
+        });
     sizes.collect::<Vec<_>>().join(", ")
 }
 
