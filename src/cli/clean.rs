@@ -9,7 +9,7 @@ use std::fs;
 use std::io::{self, BufRead as _, IsTerminal as _, stdin};
 use std::path::PathBuf;
 
-/// What to remove.
+/// Arguments of `clean`.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// Directory with the results of runs.

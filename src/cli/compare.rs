@@ -5,7 +5,7 @@ use clap::Args;
 use motion_rtl::compare::{Map, Settings, compare as hold, template};
 use std::path::PathBuf;
 
-/// What to compare.
+/// Arguments of `compare`.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The waveform that is right: VCD, FST or GHW.
@@ -54,10 +54,10 @@ pub struct Arguments {
         default_value_t = 0
     )]
     from: u64,
-    /// How many ticks to compare; without it all.
+    /// Count of ticks to compare; all by default.
     #[arg(long, value_name = "COUNT", allow_negative_numbers = true)]
     ticks: Option<u64>,
-    /// How many ticks to show before the first mismatch.
+    /// Count of ticks to show before the first mismatch.
     #[arg(
         long,
         value_name = "TICKS",

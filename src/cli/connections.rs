@@ -1,4 +1,4 @@
-//! What a circuit is made of, as `list` prints it.
+//! Parts of a circuit and their connections, as `list` prints them.
 
 use motion_rtl::hdl::{Kind, Shape};
 use motion_rtl::verilog;
@@ -61,7 +61,7 @@ impl Signal {
 }
 
 impl Connections {
-    /// Those of a circuit that has parts.
+    /// Returns the connections of a circuit; `None` if it has no parts.
     pub fn of(connections: verilog::Connections) -> Option<Self> {
         let verilog::Connections {
             parts,

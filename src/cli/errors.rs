@@ -101,7 +101,7 @@ pub fn as_json(failure: &Failure) {
 
 /// Reports a command line that cannot be parsed.
 pub fn usage(error: &clap::Error) {
-    // Where standard error is gone, the exit code is all there is to say.
+    // If standard error is closed, only the exit code remains.
     let _ = match std::env::args().any(|word| word.contains(char::is_control)) {
         true => write!(stderr(), "{}", plain(&error.to_string())),
         false => error.print(),
@@ -124,7 +124,7 @@ fn print(error: Error<'_>) {
         version: VERSION,
         error,
     };
-    // Where standard output is gone, the exit code is all there is to say.
+    // If standard output is closed, only the exit code remains.
     if let Ok(text) = serde_json::to_string_pretty(&output) {
         let _ = writeln!(stdout(), "{}", plain(&text));
     }

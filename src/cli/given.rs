@@ -90,7 +90,7 @@ impl Given {
     /// Returns the input as text.
     ///
     /// # Errors
-    /// It is not UTF-8.
+    /// The input is not UTF-8.
     pub fn text(&self) -> Result<&str, Fault> {
         str::from_utf8(&self.bytes).map_err(|error| {
             let valid = &self.bytes[..error.valid_up_to()];

@@ -14,7 +14,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// How to list.
+/// Arguments of `list`.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// Only this circuit, with what it is made of: its parts, and what drives their ports in.

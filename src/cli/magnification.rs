@@ -1,4 +1,4 @@
-//! How many times errors are drawn as large as they are.
+//! Magnification of the errors in drawings.
 
 /// The largest error is drawn as large as this part of the drawing.
 const PART: f64 = 0.0625;

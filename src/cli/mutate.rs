@@ -19,10 +19,10 @@ use std::time::Instant;
 /// Notes as `--charts` takes them.
 const CHARTS: &str = "Markdown with timing charts, or a folder of it";
 
-/// What to put faults into, and what is to find them.
+/// Arguments of `mutate`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Circuits; without them all.
+    /// Circuits; all by default.
     #[arg(value_name = "CIRCUIT")]
     circuits: Vec<String>,
     #[command(flatten)]
@@ -34,7 +34,7 @@ pub struct Arguments {
     /// Ticks of each random run that shows whether a fault reaches a port out.
     #[arg(long, value_name = "TICKS", allow_negative_numbers = true, default_value_t = 2_000, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
     ticks: u64,
-    /// How many such runs there are.
+    /// Count of random runs.
     #[arg(long, value_name = "RUNS", allow_negative_numbers = true, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=10_000))]
     runs: u64,
     /// Transitions after which a proof is given up.
@@ -45,10 +45,10 @@ pub struct Arguments {
         default_value_t = 20_000_000
     )]
     transitions: u64,
-    /// Fails where fewer of the faults that show are found, in per cent.
+    /// Fails if less than this percentage of the faults that show is found.
     #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = clap::value_parser!(u8).range(0..=100))]
     least: Option<u8>,
-    /// Lists the faults that no random run shows too.
+    /// Also lists the faults that no random run shows.
     #[arg(long)]
     unseen: bool,
     /// Prints every fault as JSON.
@@ -61,15 +61,15 @@ struct Row {
     circuit: &'static str,
     /// Faults of a circuit that can still be elaborated.
     faults: usize,
-    /// Those found by one of its charts.
+    /// Faults found by one of the circuit's charts.
     chart: usize,
-    /// By its proof or a law.
+    /// Faults found by its proof or a law.
     proof: usize,
-    /// By a chart of a circuit around it.
+    /// Faults found by a chart of a circuit around it.
     around: usize,
-    /// That no random run shows.
+    /// Faults that no random run shows.
     unseen: usize,
-    /// That show, and nothing finds.
+    /// Faults that a random run shows and nothing finds.
     missed: usize,
     seconds: f64,
     suspects: Vec<Told>,

@@ -7,21 +7,21 @@ use motion_rtl::path::error::{PathError, Reason};
 use motion_rtl::path::pieces::{Piece, Speeds, Taught, from_drawing, from_points};
 use motion_rtl::scenario::Loaded;
 
-/// Where the path begins if nothing says so.
+/// Default start of a path.
 const ORIGIN: Point = [0.0; 3];
 
-/// A scenario's speeds, and the keys: of that of the pieces that have none of their own.
+/// Speeds of a scenario, for pieces without an own speed, and their keys.
 #[derive(Debug, Clone, Copy)]
 pub struct SpeedKeys {
     /// The speeds.
     pub speeds: Speeds,
-    /// The key.
+    /// Key of the speed of lines and arcs.
     pub key: &'static str,
-    /// That of rapid moves.
+    /// Key of the speed of rapid moves.
     pub rapid: &'static str,
 }
 
-/// Where a path begins, its pieces, and the drawing they are from; none where the scenario has them.
+/// Returns the drawing if the pieces are from one, the path's start, and the pieces.
 pub fn pieces(
     source: &Source,
     start_mm: Point,
@@ -58,7 +58,7 @@ fn not_both(loaded: &Loaded) -> Fault {
     loaded.fault("piece", "given beside an input".to_owned(), allowed)
 }
 
-/// What cannot be run, with the file and line it stands in.
+/// Returns a path error with its file and line.
 pub fn fault(
     loaded: &Loaded,
     drawing: Option<&Drawing>,

@@ -8,7 +8,7 @@ use motion_rtl::engine::{Engine, Inputs, Watch, report};
 use motion_rtl::hdl::{Circuit, Described, Model, Observer, RunError, Sample};
 use std::ops::ControlFlow;
 
-/// What to plan.
+/// Arguments of `plan`.
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
@@ -21,7 +21,7 @@ pub struct Arguments {
         default_value_t = 10_000
     )]
     ticks: u64,
-    /// What the inputs are drawn from.
+    /// Seed of the random inputs.
     #[arg(
         long,
         value_name = "NUMBER",

@@ -1,5 +1,5 @@
-//! How far a run is, on standard error: before it starts how long it takes, if that is long; while it
-//! goes on a bar on a terminal, and elsewhere a line now and then.
+//! Progress of a run on standard error: before a long run its expected length, during it a bar on a
+//! terminal and an occasional line elsewhere.
 
 use super::voice;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -89,7 +89,7 @@ pub fn begin() {
                 };
                 match terminal {
                     true => BAR.tick(),
-                    // Where standard error is gone, there is nobody to tell.
+                    // Standard error may be closed.
                     false => drop(writeln!(stderr(), "{line}")),
                 }
             }
@@ -112,7 +112,7 @@ fn line(stage: &Stage, done: u64, after: Duration) -> String {
 pub fn tell(text: &str) {
     if voice::is_verbose() {
         let seconds = BEGAN.elapsed().as_secs_f64();
-        // Where standard error is gone, there is nobody to tell.
+        // Standard error may be closed.
         let _ = writeln!(stderr(), "{seconds:.3} s: {}", super::plain(text));
     }
 }
@@ -127,16 +127,15 @@ pub fn stage(name: &'static str) {
 pub struct Work {
     /// Ticks of one run.
     pub ticks: u64,
-    /// How many runs there are, each with about so many.
+    /// Count of runs, each of about that many ticks.
     pub runs: u64,
-    /// About how long they take, in s, without waves.
+    /// Approximate duration of all runs without waves, in s.
     pub seconds: f64,
     /// Ticks that go into the waves.
     pub in_waves: u64,
 }
 
-/// Says that runs begin, and where they are long how many ticks they have and about how long they
-/// take.
+/// Announces runs, and the ticks and approximate duration of long ones.
 pub fn run(subject: &str, work: Work) {
     let Work {
         ticks,
@@ -151,7 +150,7 @@ pub fn run(subject: &str, work: Work) {
             runs => format!(" in each of {runs} runs"),
         };
         let about = about(seconds);
-        // Where standard error is gone, there is nobody to tell.
+        // Standard error may be closed.
         let subject = super::plain(subject);
         let _ = writeln!(stderr(), "{subject}: {ticks} ticks{all}, about {about}");
     }

@@ -1,4 +1,4 @@
-//! How every run ends: what all summaries have, and what is said of it.
+//! End of every run: the fields that all summaries share, and their output.
 
 use super::files::{Files, Named};
 use super::run::Arguments;
@@ -9,7 +9,7 @@ use serde::Serialize;
 use std::fmt::{self, Write as _};
 use std::ops::Range;
 
-/// What all summaries have.
+/// Fields that all summaries share.
 #[derive(Debug, Serialize)]
 pub struct Outcome {
     /// Version of the keys.
@@ -20,22 +20,22 @@ pub struct Outcome {
     pub input: String,
     /// Reference clock in Hz.
     pub clock_hz: u64,
-    /// Ticks of the run: of several that in the waves.
+    /// Ticks of the run; of several runs, those of the run in the waves.
     pub ticks: u64,
-    /// The same in seconds.
+    /// Duration of the run in seconds.
     pub seconds: f64,
-    /// What is wrong with the run; nothing where it did what it was to do.
+    /// Faults of the run; empty if it succeeded.
     pub complaints: Vec<String>,
-    /// What was skipped, assumed or rounded, and what else is worth knowing.
+    /// Warnings: anything skipped, assumed or rounded, and other remarks.
     pub warnings: Vec<String>,
-    /// Ticks that went into the waves, half-open; `null` without any.
+    /// Ticks in the waves, half-open; `null` without waves.
     pub vcd_window: Option<[u64; 2]>,
     /// The files written.
     pub files: Vec<Named>,
 }
 
 impl Outcome {
-    /// Of a run that nothing is known to be wrong with; its files are not written yet.
+    /// Creates the outcome of a run without complaints, before its files are written.
     pub fn new(circuit: &'static str, input: &str, clock_hz: u64, ticks: u64) -> Self {
         Outcome {
             version: errors::VERSION,
@@ -51,12 +51,12 @@ impl Outcome {
         }
     }
 
-    /// What ran on which circuit: the text of every summary begins so.
+    /// Returns input and circuit, the beginning of every summary's text.
     pub fn subject(&self) -> String {
         format!("{} on {}", self.input, self.circuit)
     }
 
-    /// How long it took.
+    /// Returns the length of the run as text.
     pub fn length(&self) -> String {
         format!(
             "{} ticks, {:.3} s at {} Hz",
@@ -64,7 +64,7 @@ impl Outcome {
         )
     }
 
-    /// What the text of every summary ends with.
+    /// Writes the end of every summary's text: the window of the waves and the files.
     fn tail(&self, text: &mut String) -> fmt::Result {
         if let Some([from, to]) = self.vcd_window
             && (from > 0 || to < self.ticks)
@@ -84,9 +84,9 @@ impl Outcome {
 
 /// The summary of a run.
 pub trait Report: Serialize {
-    /// What it has as all others.
+    /// Returns the shared fields.
     fn outcome(&mut self) -> &mut Outcome;
-    /// Writes it for people, with every part of the run if `all` are wanted.
+    /// Writes the summary as text, with every part of the run if `all` is set.
     fn write(&self, text: &mut String, all: bool) -> fmt::Result;
 }
 

@@ -14,12 +14,12 @@ use std::path::PathBuf;
 /// The key that `--beside` sets.
 const BESIDE: &str = "beside=true";
 
-/// What to run, and what to write.
+/// Arguments of `run`.
 #[derive(Debug, Default, Args)]
 pub struct Arguments {
     #[command(flatten)]
     input: Input,
-    /// Where the files go.
+    /// Directory for the files.
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// The format of the waves.
@@ -100,7 +100,7 @@ pub(super) fn options(arguments: &Arguments, most: u64) -> Result<Options, Failu
     })
 }
 
-/// How many of so many ticks go into the waves.
+/// Returns how many of a run's `ticks` are in the waves.
 pub(super) fn in_waves(arguments: &Arguments, options: &Options, ticks: u64) -> u64 {
     match arguments.no_vcd {
         true => 0,

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 /// Name of the program.
 const NAME: &str = "motion-rtl";
 
-/// Which shell's completions to print.
+/// Arguments of `completions`.
 #[derive(Debug, Args)]
 pub struct Completions {
     /// Shell that reads the completions.
@@ -20,7 +20,7 @@ pub struct Completions {
     shell: Shell,
 }
 
-/// Where the man pages go.
+/// Arguments of `man`.
 #[derive(Debug, Args)]
 pub struct Man {
     /// Directory for the pages, one for the program and one for each command.

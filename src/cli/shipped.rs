@@ -12,7 +12,7 @@ use std::path::Path;
 pub struct Shipped {
     /// The scenario file.
     pub file: &'static str,
-    /// What it is, in one line.
+    /// Description in one line.
     pub about: &'static str,
     text: &'static str,
     input: Option<Input>,

@@ -10,15 +10,15 @@ use {
     std::{fs, process, thread},
 };
 
-/// What a shell adds to the number of a signal.
+/// Offset of a signal's number in the exit code of a shell.
 #[cfg(unix)]
 const ENDED: i32 = 128;
 
-/// Cleans up behind SIGHUP, SIGINT and SIGTERM from now on. What `nohup` or a shell has a program
-/// ignore, it ignores.
+/// Starts to clean up on SIGHUP, SIGINT and SIGTERM. A signal that `nohup` or a shell ignores stays
+/// ignored.
 ///
-/// Where that is not to be had, they end the program as they end any, and the next run clears away
-/// what it leaves.
+/// If the handlers cannot be installed, the signals end the program without cleaning up, and the
+/// next run removes the leftovers.
 #[cfg(unix)]
 pub fn watch() {
     let ignored = ignored();

@@ -14,7 +14,7 @@ use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// What to compile.
+/// Arguments of `table`.
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
@@ -43,7 +43,7 @@ struct Output<'a> {
     files: Vec<Named>,
 }
 
-/// What scaling the data does to an axis.
+/// Effect of scaling the data on an axis.
 #[derive(Debug, Serialize)]
 pub struct AxisDeviation {
     /// Largest difference from the ideal in one unit time, in pulses.
@@ -118,7 +118,7 @@ pub fn table(arguments: &Arguments) -> Result<(), Failure> {
 /// Refuses to write over what the table is made from.
 fn spare_inputs(out: &Path, arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let Ok(out) = out.canonicalize() else {
-        // It is not there yet.
+        // The file does not exist yet.
         return Ok(());
     };
     let scenario = arguments.input.input.as_deref();

@@ -15,9 +15,9 @@ pub struct Thinned<T, const K: usize> {
     interval: usize,
     /// Records so far.
     count: usize,
-    /// Those that are kept, each with its number from 0.
+    /// The records kept, each with its number from 0.
     kept: Vec<(usize, T)>,
-    /// Where among these the interval under way begins.
+    /// Index in `kept` at which the current interval begins.
     latest: usize,
 }
 
@@ -48,18 +48,18 @@ impl<T: Copy, const K: usize> Thinned<T, K> {
         }
     }
 
-    /// How many there were.
+    /// Returns the count of all records.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Those that are kept, each with its number from 0.
+    /// Iterates over the records kept, each with its number from 0.
     #[cfg(test)]
     fn numbered(&self) -> impl Iterator<Item = (usize, &T)> + Clone {
         self.kept.iter().map(|(number, record)| (*number, record))
     }
 
-    /// Those that are kept.
+    /// Iterates over the records kept.
     pub fn iter(&self) -> impl Iterator<Item = &T> + Clone {
         self.kept.iter().map(|(_, record)| record)
     }
@@ -80,7 +80,7 @@ impl<T: Copy, const K: usize> Thinned<T, K> {
         }
     }
 
-    /// Those of an interval that are kept.
+    /// Returns the records of an interval that are kept.
     fn chosen(&self, group: &[(usize, T)]) -> Vec<(usize, T)> {
         let numbers: Vec<[f64; K]> = group.iter().map(|(_, one)| (self.numbers)(one)).collect();
         let mut places: BTreeSet<usize> = [0, group.len() - 1].into();

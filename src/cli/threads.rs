@@ -32,12 +32,12 @@ pub fn beside<'scope, T: Send + 'scope>(
     started.map_err(|error| none(&error))
 }
 
-/// What it came to; a panic there is one here.
+/// Joins a thread and returns its result; a panic of the thread continues here.
 pub fn joined<T>(other: ScopedJoinHandle<'_, T>) -> T {
     other.join().unwrap_or_else(|panic| resume_unwind(panic))
 }
 
-/// That a thread could not be started.
+/// Returns the error for a thread that could not be started.
 fn none(error: &io::Error) -> Failure {
     Failure::Argument {
         field: "threads",

@@ -1,4 +1,4 @@
-//! How much the program says, and in which colours: options of all commands.
+//! Verbosity and colours of the output: options of all commands.
 
 use clap::{ArgAction, Args, ColorChoice, ValueEnum};
 use std::ffi::OsString;

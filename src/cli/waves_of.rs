@@ -27,7 +27,7 @@ pub struct System<'a> {
 type Play<'a> = Box<dyn FnOnce(&Stage<'_>) -> Result<Shown, Failure> + 'a>;
 type Shown = (&'static str, Ending, Files);
 
-/// Where a system is played.
+/// Arguments and input of a system's run.
 struct Stage<'s> {
     arguments: &'s Arguments,
     options: &'s Options,
@@ -35,7 +35,7 @@ struct Stage<'s> {
     stem: &'s str,
 }
 
-/// How the run of a system ended.
+/// End of a system's run.
 pub struct Ending {
     /// Ticks of the run.
     pub ticks: u64,

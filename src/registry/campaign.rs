@@ -9,11 +9,11 @@ use crate::trace::chart::{Chart, ChartFailure};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// What faults of a circuit are looked for with: timing charts, proofs, laws.
+/// A search for faults of a circuit, by timing charts, proofs and laws.
 ///
-/// A fault is put into the netlist wherever the circuit is in it. Charts of the circuit come first;
-/// what passes them all is run beside the circuit without the fault, on random inputs. Where the
-/// ports out differ, the circuit's proof, its laws, and charts of circuits around it are asked too.
+/// A fault is put into every instance of the circuit in a netlist. The circuit's charts run first.
+/// A fault that passes them all runs on random inputs, beside the circuit without it. If the output
+/// ports differ, the circuit's proof, its laws and charts of circuits around it run too.
 ///
 /// ```
 /// use motion_rtl::registry::{Campaign, Fate, find};
@@ -40,31 +40,31 @@ pub struct Campaign {
     pub charts: Vec<Chart>,
     /// Ticks of each run on random inputs.
     pub ticks: u64,
-    /// How many such runs there are at most.
+    /// Largest count of runs on random inputs.
     pub runs: u64,
     /// Transitions after which a proof is given up.
     pub transitions: u64,
 }
 
-/// A fault and what became of it.
+/// A fault and its fate.
 #[derive(Debug, Clone)]
 pub struct Suspect {
     /// The fault.
     pub mutation: Mutation,
-    /// What became of it.
+    /// Fate of the fault.
     pub fate: Fate,
 }
 
-/// What became of a fault.
+/// Result of the search for a fault.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Fate {
     /// Something found it.
     Found(Found),
-    /// Nothing did, and no run on random inputs showed it at a port out.
+    /// Nothing found it, and no run on random inputs showed it at an output port.
     Unseen,
     /// With it, the circuit cannot be elaborated.
     Refused,
-    /// Nothing found it, though it shows.
+    /// Nothing found it, although a random run shows it.
     Missed {
         /// The circuit as it was made: base and changed keys.
         made: (Base, Vec<Pair>),
@@ -72,25 +72,25 @@ pub enum Fate {
         run: u64,
         /// The first tick at which it shows.
         tick: u64,
-        /// The port out.
+        /// Name of the output port.
         port: String,
     },
 }
 
-/// What found a fault.
+/// The check that found a fault.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Found {
     /// A chart of the circuit, by its title.
     Chart(String),
-    /// Its proof.
+    /// The proof of the circuit.
     Proof,
-    /// A law of it.
+    /// A law of the circuit.
     Law,
     /// A chart of a circuit around it: the circuit, and the title.
     Around(String, String),
 }
 
-/// Why faults cannot be looked for.
+/// Reasons why a search for faults cannot run.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CampaignError {
     /// The circuit, or one around it, cannot be elaborated.
@@ -103,7 +103,7 @@ pub enum CampaignError {
         chart: Option<usize>,
         /// Name of the circuit.
         circuit: &'static str,
-        /// Why.
+        /// Reason of the refusal.
         refused: Refused,
     },
     /// A chart does not hold of the circuit without a fault: it would find every one.
@@ -111,7 +111,7 @@ pub enum CampaignError {
     Chart {
         /// Its number in [`Campaign::charts`], from 0.
         chart: usize,
-        /// Why it does not hold.
+        /// The failure of the chart.
         failure: Box<ChartFailure>,
     },
 }
@@ -134,7 +134,7 @@ impl Made<'_> {
         mutated(mutation, || self.circuit.model())
     }
 
-    /// Its charts hold; they are some of `all`.
+    /// Checks that the circuit's charts hold; they are some of `all`.
     fn holds(&self, all: &[Chart]) -> Result<(), CampaignError> {
         for chart in &self.charts {
             if let Err(failure) = chart.run_on(&self.model) {
@@ -148,14 +148,14 @@ impl Made<'_> {
         Ok(())
     }
 
-    /// The chart that finds a fault.
+    /// Returns the chart that finds a fault.
     fn chart(&self, model: &Model) -> Option<&Chart> {
         let mut charts = self.charts.iter().copied();
         charts.find(|chart| matches!(chart.run_on(model), Err(ChartFailure::Mismatch(_))))
     }
 }
 
-/// What the ports out of a circuit are on random inputs, run by run and tick by tick.
+/// Values of a circuit's output ports on random inputs, per run and tick.
 struct Shown {
     runs: Vec<Vec<u64>>,
 }
@@ -290,7 +290,7 @@ impl Campaign {
         }
     }
 
-    /// Where a fault shows at first: run, tick, port out.
+    /// Returns where a fault first shows: run, tick and output port.
     fn shows(&self, shown: &Shown, model: &Model) -> Option<(u64, u64, String)> {
         for (run, rows) in shown.runs.iter().enumerate() {
             let mut rows = rows.iter();
@@ -359,7 +359,7 @@ impl Campaign {
         missed
     }
 
-    /// Whether a proof or law of the circuit finds a fault.
+    /// Returns the proof or law of the circuit that finds a fault.
     fn proof_or_law(&self, entry: &Entry, mutation: &Mutation) -> Option<Found> {
         if let Ok(circuit) = entry.proof(&[])
             && let Some(Ok(model)) = mutated(mutation, || circuit.model())

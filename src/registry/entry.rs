@@ -66,7 +66,7 @@ impl Entry {
     /// Returns the small circuit, some keys changed, with its proofs.
     ///
     /// # Errors
-    /// As [`made`](Self::made); the circuit is not proved.
+    /// The cases of [`made`](Self::made); the circuit is not proved.
     pub fn proof(&self, pairs: &[Pair]) -> Result<Box<dyn AnyCircuit>, Refused> {
         let made = keys::made(self, Base::Small, pairs)?;
         made.proofs.ok_or(Refused::NoProof)
@@ -75,7 +75,7 @@ impl Entry {
     /// Returns the law of the small circuit, some keys changed.
     ///
     /// # Errors
-    /// As [`made`](Self::made); the circuit has no law.
+    /// The cases of [`made`](Self::made); the circuit has no law.
     pub fn law(&self, pairs: &[Pair]) -> Result<Box<dyn AnySweep>, Refused> {
         let made = keys::made(self, Base::Small, pairs)?;
         made.law.ok_or(Refused::NoProof)

@@ -50,7 +50,7 @@ pub struct WrongPair {
     pub allowed: String,
 }
 
-/// Why a circuit cannot be made.
+/// Reasons why a circuit cannot be made.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Refused {
     /// Keys and values that it does not take, all of them.

@@ -9,18 +9,18 @@ use std::path::Path;
 
 /// A law with its circuit, its type forgotten.
 pub trait AnySweep: AnyModel {
-    /// What holds.
+    /// Returns the statement that holds.
     fn law(&self) -> &str;
-    /// The number of cases.
+    /// Returns the number of cases.
     ///
     /// # Errors
-    /// They are too wide to be counted.
+    /// The inputs are too wide to be counted.
     fn cases(&self) -> Result<u64, CheckError>;
     /// Checks the cases with these indices; `waves` is where the first that is wrong is written as
     /// VCD and save file. A `model` is a netlist of the law to take in place of its own.
     ///
     /// # Errors
-    /// They are too wide to be counted.
+    /// The inputs are too wide to be counted.
     fn sweep(
         &self,
         range: Range<u64>,

@@ -1,4 +1,4 @@
-//! How a circuit is made of its parts: what drives each of their ports in, for who writes it anew.
+//! Connections of a circuit's parts: the driver of each of their input ports.
 
 use super::design::Modules;
 use super::expression::Expressions;
@@ -46,12 +46,12 @@ pub struct Connection {
     pub name: String,
     /// Kind and width.
     pub shape: Shape,
-    /// What drives it.
+    /// Driver of the port.
     pub driver: String,
 }
 
 impl Connections {
-    /// Those of a circuit whose signals are `declarations`.
+    /// Returns the connections of a circuit whose signals are `declarations`.
     pub fn of(design: &Design, declarations: &Declarations) -> Self {
         let modules = Modules {
             modules: &design.modules,
@@ -127,7 +127,7 @@ fn part(
         let around = std::iter::once(&child.name);
         let mut path: Vec<String> = around.chain(&parameter.path).cloned().collect();
         let number = modules.number(&path);
-        // As Verilog has it.
+        // Parameters are upper case in the Verilog output.
         if let Some(name) = path.last_mut() {
             name.make_ascii_uppercase();
         }

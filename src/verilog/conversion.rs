@@ -84,7 +84,7 @@ impl Expressions<'_> {
     }
 }
 
-/// The same bits as a signed or an unsigned expression.
+/// Casts an expression to signed or unsigned without changing its bits.
 pub(super) fn wrap(text: Text, from: Kind, to: Kind) -> Text {
     match (from == Kind::Signed, to == Kind::Signed) {
         (false, true) => Text::atom(format!("$signed({})", text.0)),

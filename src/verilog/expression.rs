@@ -5,7 +5,7 @@ use crate::hdl::{Kind, Shape};
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-/// How tightly an operator binds, as Verilog ranks them.
+/// Precedence of an operator in Verilog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Rank {
     Choice,
@@ -31,7 +31,7 @@ impl Text {
         Text(text, Rank::Atom)
     }
 
-    /// As an operand of something that binds this tightly.
+    /// Returns the text as an operand of an operator of this rank, in parentheses if needed.
     pub(super) fn within(self, rank: Rank) -> String {
         match self.1 >= rank {
             true => self.0,
@@ -80,8 +80,8 @@ impl<'m> Expressions<'m> {
         self.not(id).0
     }
 
-    /// What a node computes, though it has a name; long choices and conditions in several lines,
-    /// each with `indent` before it.
+    /// Returns the expression of a node, even if it has a name. Long choices and conditions take
+    /// several lines, each indented by `indent`.
     pub(super) fn definition(&self, id: Id, room: usize, indent: &str) -> String {
         let text = self.computed(id).0;
         if text.len() <= room {
@@ -315,7 +315,7 @@ impl<'m> Expressions<'m> {
         Text(format!("{left} {sign} {right}"), rank)
     }
 
-    /// How a memory is written, for the block of the clock.
+    /// Returns a memory's enable condition and write statement for the clocked block.
     pub(super) fn port(&self, memory: usize) -> Option<(Option<String>, String)> {
         let memory = &self.module.memories[memory];
         match memory.port {

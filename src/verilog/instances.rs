@@ -6,7 +6,7 @@ use super::text::Body;
 use crate::hdl::netlist::{Module, Node};
 use crate::hdl::{Role, Shape};
 
-/// How the ports out of instances are connected.
+/// Connections of instances' output ports.
 pub(super) struct Outputs {
     /// Wires to declare.
     pub(super) wires: Vec<(Shape, String)>,

@@ -5,7 +5,7 @@ use super::text::{Body, LINE};
 use crate::hdl::Role;
 use crate::hdl::netlist::Module;
 
-/// What reads the bits that nothing else reads.
+/// Name of the wire that reads otherwise unused bits.
 pub(super) const UNUSED: &str = "_unused";
 
 /// A wire that reads what nothing else does, so that a linter stays quiet about it alone.

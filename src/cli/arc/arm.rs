@@ -11,7 +11,7 @@ use std::fmt::{self, Write};
 pub struct ArmRows {
     /// Counts of a turn of a joint.
     pub counts_per_rev: u32,
-    /// How far whole counts of the joints put the hand off its command, at most.
+    /// Largest error of the hand due to rounding the joints to whole counts.
     pub rounding_um: f64,
     /// Every joint, from the ground up.
     pub joints: [JointRow; 3],

@@ -18,13 +18,13 @@ use std::ops::RangeInclusive;
 /// The figures of a run.
 #[derive(Debug)]
 pub struct Figures {
-    /// Measured on the commands; none where their number is not that of the path's samples.
+    /// Measurements on the commands; `None` if their number differs from the path's samples.
     pub measured: Option<Measured>,
     /// The arcs that are measured, in order.
     pub arcs: Vec<ArcFigures>,
     /// The first sample that is farther from its exact point than arithmetic and rounding allow.
     pub astray: Option<String>,
-    /// Beside blends by differences, where they are made by products.
+    /// Comparison with blends by differences, if the run's blends are made by products.
     pub differing: Option<ProductsRow>,
     /// Changes of speed, and what they make of the mechanism.
     pub jolt: Jolt,
@@ -40,18 +40,17 @@ pub struct Figures {
     pub blended: Option<Blended>,
     /// The arcs by the conventional method.
     pub beside: Beside,
-    /// The same without ramps.
+    /// The arcs by the conventional method without ramps.
     pub even: Beside,
 }
 
 /// An arc of a path.
 #[derive(Debug, Clone, Copy)]
 pub struct ArcFigures {
-    /// Its segment.
+    /// Index of its segment.
     pub segment: usize,
-    /// Its piece.
+    /// Index of its piece.
     pub piece: usize,
-    /// What became of it.
     pub report: ArcReport,
 }
 
@@ -90,7 +89,7 @@ pub struct Blended {
 }
 
 impl Blended {
-    /// Of the arc from which a blend leaves farthest.
+    /// Returns the blend that leaves its arc farthest; `None` if there is no arc.
     fn of(job: &Job, arcs: &[ArcFigures]) -> Option<Self> {
         let far = |arc: &&ArcFigures| arc.report.blend_distance;
         let arc = *arcs.iter().max_by(|a, b| far(a).total_cmp(&far(b)))?;
@@ -131,7 +130,7 @@ pub struct UnderWay<'j> {
 }
 
 impl<'j> UnderWay<'j> {
-    /// One that begins.
+    /// Starts the figures of a run.
     pub fn new(job: &'j Job) -> Self {
         let arcs = arcs(job);
         UnderWay {

@@ -12,15 +12,15 @@ use std::fmt;
 /// A way to make the commands.
 #[derive(Debug, Serialize)]
 pub struct Row {
-    /// Which.
+    /// Name of the method.
     pub method: &'static str,
     /// Largest change of speed from one sample to the next.
     pub speed_change_mm_per_s: f64,
-    /// The acceleration that it is.
+    /// That change divided by the sample time.
     pub acceleration_mm_per_s2: f64,
-    /// How far the mechanism is from its command at most, while that moves.
+    /// Largest distance of the mechanism from its command while the command moves.
     pub moving_um: Option<f64>,
-    /// The same after its end.
+    /// Largest distance after the command has ended.
     pub rest_um: Option<f64>,
 }
 
@@ -58,7 +58,7 @@ fn row(job: &Job, method: &'static str, jolt: Jolt) -> Row {
 pub struct Jolt {
     /// Largest change of speed from one sample to the next in mm/s.
     speed_change: f64,
-    /// Of the mechanism, if there is one.
+    /// Vibration of the mechanism, if there is one.
     vibration: Vibration,
 }
 

@@ -40,7 +40,7 @@ const SAMPLE_S: f64 = 1e-6;
 /// Samples that the save file's window shows, with the change into the rotation in its middle.
 const SAMPLES_SHOWN: u64 = 12;
 
-/// What the save file shows on top.
+/// Signals at the top of the save file.
 const OVERVIEW: [&str; 23] = [
     "sampled",
     "kind",

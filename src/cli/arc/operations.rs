@@ -1,4 +1,4 @@
-//! What a sample costs: by the conventional method, as the patent's formulas are written, and in
+//! Operations per sample: by the conventional method, by the patent's formulas as written, and in
 //! the circuit.
 
 use super::Job;
@@ -37,7 +37,7 @@ pub struct Row {
     pub ticks: Option<u64>,
 }
 
-/// Of the circuit, and where it is compared of each method; nothing where the path has no arc.
+/// Returns the circuit's row and, in a comparison, each method's; empty if the path has no arc.
 pub fn rows(job: &Job) -> Vec<Row> {
     let mut arcs = job.prepared.pieces.iter();
     let found = arcs.find_map(|piece| Some((piece, piece.arc?)));

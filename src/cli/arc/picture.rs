@@ -175,7 +175,7 @@ fn radius_error(job: &Job, figures: &Figures) -> Panel {
         .curve(Curve::new("of the commands", errors).colour(ARC).width(0.8))
 }
 
-/// How far the blend into an arc leaves it, along the way.
+/// Panel of the distance between the blend into an arc and the arc, over the way.
 fn off_arc(job: &Job, figures: &Figures, blended: &Blended) -> Option<Panel> {
     let (arc, points) = (&blended.arc, &blended.points);
     let blend = job.prepared.segments.get(arc.segment.checked_sub(1)?)?;

@@ -8,21 +8,21 @@ use motion_rtl::jobs::arc_generator::reference::commands;
 use serde::Serialize;
 use std::fmt::{self, Write};
 
-/// How far the commands are from those of difference engines.
+/// Differences between the commands and those of difference engines.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Row {
     /// Samples whose commands differ.
     pub samples_differing: u64,
-    /// By how many counts a coordinate differs at most.
+    /// Largest difference of a coordinate in counts.
     pub counts_most: u64,
 }
 
-/// Of a run whose blends are made by products.
+/// Summary of a run whose blends are made by products.
 #[derive(Debug, Serialize)]
 pub struct Products {
     /// The most samples that a blend by differences may have.
     pub difference_samples_most: u64,
-    /// Beside difference engines; nothing where their words do not hold a blend of this path.
+    /// Comparison with difference engines; `None` if a blend of this path exceeds their words.
     pub differences: Option<Row>,
 }
 
@@ -33,7 +33,7 @@ pub struct Differing<'j> {
 }
 
 impl<'j> Differing<'j> {
-    /// Before the first command; nothing where there is nothing to compare with.
+    /// Starts before the first command; `None` if there is nothing to compare with.
     pub fn of(job: &'j Job) -> Option<Self> {
         let records = job.differences.as_ref()?;
         Some(Differing {
@@ -55,7 +55,7 @@ impl<'j> Differing<'j> {
         self.row.counts_most = self.row.counts_most.max(off);
     }
 
-    /// How far all were from the others.
+    /// Returns the differences of all commands.
     pub fn finish(self) -> Row {
         self.row
     }

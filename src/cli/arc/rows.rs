@@ -48,34 +48,34 @@ pub struct ArcRow {
     pub speed_deviation_mm_per_s: f64,
     /// Least and largest error of the radius, outwards positive.
     pub radius_error_um: [f64; 2],
-    /// Root of the mean square of the same.
+    /// RMS error of the radius.
     pub radius_error_rms_um: f64,
     /// Distance of the last sample from C⁻.
     pub end_error_um: f64,
-    /// What neither may exceed: rotation and rounding to counts.
+    /// Bound of both errors: rotation plus rounding to counts.
     pub bound_um: f64,
-    /// Largest radius error of the conventional method, rounded to counts too; none where it is not
-    /// compared.
+    /// Largest radius error of the conventional method, also rounded to counts; omitted without a
+    /// comparison.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub conventional_radius_error_um: Option<f64>,
     /// A⁺ and C⁻.
     pub ends: Vec<EndRow>,
 }
 
-/// Where the rotation begins or ends.
+/// Start or end of the rotation.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct EndRow {
     /// "A+" or "C-".
     pub at: &'static str,
-    /// The blend there is from or to rest.
+    /// True if the blend there is from or to rest.
     pub rest: bool,
     /// asin(v·ta/2R).
     pub direction_jump_deg: Pair,
     /// v²/R.
     pub acceleration_jump_mm_per_s2: Pair,
-    /// How far the blend leaves the arc, R(1 − cos(φ/2)) if it is from or to rest.
+    /// Distance between blend and arc, R(1 − cos(φ/2)) if the blend is from or to rest.
     pub off_arc_um: Option<Pair>,
-    /// The same as (v·ta)²/8R.
+    /// Estimate of that distance, (v·ta)²/8R.
     pub off_arc_estimate_um: Option<f64>,
 }
 
@@ -103,11 +103,11 @@ pub struct BlendRow {
     pub piece: usize,
     /// Line of the input.
     pub line: Option<usize>,
-    /// What it blends: "from rest", "joint", "to rest".
+    /// "from rest", "joint" or "to rest".
     pub kind: &'static str,
     /// The turn of a joint.
     pub turn_deg: Option<f64>,
-    /// How close a joint comes to its corner, 3/16·|A⁻ − 2A + A⁺|.
+    /// Distance between a joint and its corner, 3/16·|A⁻ − 2A + A⁺|.
     pub corner_distance_um: Option<Pair>,
     /// Largest distance from the lines and arcs that it blends.
     pub off_path_um: f64,
@@ -133,7 +133,7 @@ pub fn arcs(job: &Job, figures: &Figures) -> Vec<ArcRow> {
         .collect()
 }
 
-/// What neither the radius nor the end of an arc may be off by, in mm.
+/// Returns the bound of an arc's radius error and end error in mm.
 pub fn bound(job: &Job, figures: &ArcFigures) -> f64 {
     let samples = job.prepared.segments[figures.segment].samples;
     let per_mm = job.settings.counts_per_mm;

@@ -51,7 +51,7 @@ fn isometric(job: &Job, figures: &Figures) -> Panel {
             .colour(FLOOR)
             .width(2.0),
     );
-    // Of every taught point its place on the floor.
+    // Every taught point, projected onto the floor.
     let taught = job.prepared.pieces.first().map(|piece| piece.from);
     let taught = taught
         .into_iter()

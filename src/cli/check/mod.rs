@@ -13,10 +13,10 @@ use parts::Shard;
 use report::{Asked, Report};
 use std::path::PathBuf;
 
-/// What to prove.
+/// Arguments of `check`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Circuits; without them all.
+    /// Circuits; all by default.
     #[arg(value_name = "CIRCUIT")]
     circuits: Vec<String>,
     #[command(flatten)]
@@ -24,7 +24,7 @@ pub struct Arguments {
     /// States after which a proof is given up.
     #[arg(long, value_name = "STATES", allow_negative_numbers = true, default_value_t = 1 << 26)]
     limit: u32,
-    /// Where the waves of a counterexample go.
+    /// Directory for the waves of a counterexample.
     #[arg(long, value_name = "DIR", default_value = "waves")]
     out: PathBuf,
     /// Does part I of N of the work.

@@ -9,18 +9,18 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// What a part's file has in it.
+/// Contents of a part's file, for messages.
 const PRINTED: &str = "what `check --shard --json` printed";
-/// Missing parts that are listed.
+/// Most missing parts that a message lists.
 const LISTED: usize = 10;
 
 /// A part of the work; part 1 of 1 is all of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shard {
-    /// Which, from 1.
+    /// Number of the part, from 1.
     pub part: u32,
-    /// Of how many.
+    /// Count of parts.
     pub of: u32,
 }
 
@@ -213,7 +213,7 @@ fn unread() -> Failure {
     }
 }
 
-/// What was asked for, as on the command line.
+/// Returns the request as a command line.
 fn told(asked: &Asked) -> String {
     let names = asked.circuits.iter().map(|name| format!(" {name}"));
     let names: String = names.collect();
@@ -233,7 +233,7 @@ fn joined(before: Row, row: Row) -> Row {
             ),
             ..before
         },
-        // What is wrong in the lowest case is what counts, and before all a counterexample.
+        // The fault of the lowest case counts; a counterexample takes precedence over all else.
         (Ended::Broken, _) => before,
         (Ended::Holds, _) | (_, Ended::Broken) => row,
         _ => before,

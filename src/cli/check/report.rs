@@ -1,4 +1,4 @@
-//! What came of it: the table, and the same as JSON.
+//! The result as a table and as JSON.
 
 use super::parts::Shard;
 use crate::cli::Failure;
@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 pub const TOO_WIDE: &str = "is too wide for a proof by exhaustion";
 pub const ITS_BLOCKS: &str = "its blocks; what is tested of it stands in its note";
 
-/// What was asked for.
+/// Arguments of the command that the report answers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Asked {
@@ -21,7 +21,7 @@ pub struct Asked {
     pub limit: u32,
 }
 
-/// Whether a row is a proof by all states or a sweep over all cases.
+/// Kind of a row: a proof over all states or a sweep over all cases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
@@ -29,13 +29,13 @@ pub enum Kind {
     Sweep,
 }
 
-/// How it ended.
+/// Outcome of a proof or a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ended {
     /// Everything holds.
     Holds,
-    /// Something does not.
+    /// A counterexample or a failing case exists.
     Broken,
     /// More states than the limit.
     NotDecided,
@@ -51,7 +51,7 @@ pub struct Row {
     pub kind: Kind,
     /// Widths of the circuit in bits.
     pub widths: BTreeMap<String, u64>,
-    /// What holds.
+    /// The properties that were checked.
     pub invariants: Vec<String>,
     pub ended: Ended,
     /// The states of a proof, the cases of a sweep.
@@ -59,7 +59,7 @@ pub struct Row {
     pub transitions: Option<u64>,
     pub depth: Option<u64>,
     pub seconds: f64,
-    /// Why it does not hold.
+    /// Report of the failure.
     pub fault: Option<String>,
 }
 
@@ -98,7 +98,7 @@ impl Report {
         }
     }
 
-    /// As text.
+    /// Returns the report as text.
     pub fn table(&self) -> String {
         let mut table = String::new();
         // Writing to a string does not fail.

@@ -1,4 +1,4 @@
-//! What there is to do, in the order of the table.
+//! Proofs and sweeps to run, in the order of the table.
 
 use super::entries;
 use super::report::{Asked, ITS_BLOCKS, Kind, TOO_WIDE};
@@ -23,7 +23,7 @@ impl Task {
     }
 }
 
-/// What was asked for, and the circuits of which nothing can be proved or swept.
+/// Returns the requested tasks, and the circuits that can be neither proved nor swept.
 pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
     let (mut tasks, mut others) = (Vec::new(), Vec::new());
     if asked.circuits.is_empty() && !asked.changes.is_empty() {

@@ -85,7 +85,7 @@ fn row(
     Ok(row)
 }
 
-/// What was made once before can be made again.
+/// Returns the error for a circuit that cannot be made; the tasks name only circuits that can.
 fn unmade(task: &Task) -> Failure {
     Failure::Check(format!("{}: cannot be made", task.circuit()))
 }

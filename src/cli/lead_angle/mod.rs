@@ -33,7 +33,7 @@ const TICK_S: f64 = 50e-9;
 /// CKs that the save file's window shows.
 const CKS_SHOWN: u64 = 400;
 
-/// What the save file shows on top.
+/// Signals at the top of the save file.
 const OVERVIEW: [&str; 14] = [
     "ck",
     "position",
@@ -51,7 +51,7 @@ const OVERVIEW: [&str; 14] = [
     "learned_time",
 ];
 
-/// The same where the lead is of the speed.
+/// Signals at the top of the save file if the lead follows the speed.
 const OVERVIEW_BY_SPEED: [&str; 11] = [
     "ck",
     "position",

@@ -26,7 +26,7 @@ pub fn draw(job: &Job, played: &[(System, Played)]) -> String {
     if let Some(learning) = of(played, LEARNING) {
         picture = picture.panel(errors_in_codes(job, learning));
     }
-    // Where nothing is compared, the scenario's own lead times are all that there are.
+    // Without a comparison, only the scenario's own lead times are drawn.
     let alone = match played {
         [(own, _)] if own.settings.lead == LeadBy::Time => own.name,
         _ => LEARNING,

@@ -1,4 +1,4 @@
-//! What a run of the linear interpolator begins with: settings and cycles.
+//! Input of a run of the linear interpolator: settings and cycles.
 
 use crate::cli::source::{Source, drawing_fault, plan_fault};
 use crate::cli::{Failure, progress};
@@ -14,7 +14,7 @@ use motion_rtl::settings::tidy;
 /// An input ready to be run.
 #[derive(Debug)]
 pub struct Job {
-    /// What its files are called.
+    /// Stem of the names of its files.
     pub stem: String,
     /// The input.
     pub drawing: Drawing,
@@ -99,7 +99,7 @@ impl Job {
     }
 }
 
-/// What the compiler objects to, with the file and line it stands in.
+/// Returns a compile error with its file and line.
 fn fault(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: TargetError) -> Fault {
     match error {
         TargetError::Setting(error) => loaded.refuse(error),

@@ -37,7 +37,7 @@ const TICK_S: f64 = 50e-9;
 /// Scans that the save file's window shows.
 const SCANS_SHOWN: u64 = 60;
 
-/// What the save file shows on top.
+/// Signals at the top of the save file.
 const OVERVIEW: [&str; 11] = [
     "scan",
     "interpolator.pattern.trapezoid.phase",

@@ -14,25 +14,25 @@ pub struct Row {
     pub segment: usize,
     /// Line of the input.
     pub line: usize,
-    /// Whether the pen is up.
+    /// True if the pen is up.
     pub rapid: bool,
-    /// Where it starts, in counts.
+    /// Start in counts.
     pub from: [i64; 2],
-    /// Where it ends, in counts.
+    /// End in counts.
     pub to: [i64; 2],
     /// Δx and Δy in counts.
     pub delta: [i64; 2],
-    /// The axis that leads.
+    /// Master axis.
     pub master: &'static str,
     /// Speed of that axis, in counts per scan.
     pub speed_counts_per_scan: f64,
-    /// The speed along the line that is asked for.
+    /// Requested speed along the line.
     pub speed_asked_mm_per_min: f64,
-    /// The highest that the linear interpolator reaches: less on a line that is too short for it.
+    /// Highest speed that the linear interpolator reaches; less on a line that is too short.
     pub speed_reached_mm_per_min: f64,
-    /// The linear interpolator.
+    /// Figures of the linear interpolator.
     pub interpolator: Figures,
-    /// The same with another master axis.
+    /// Figures of the linear interpolator with another master axis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub other_master: Option<Figures>,
     /// The conventional system, both axes with the same settings.
@@ -43,27 +43,27 @@ pub struct Row {
     pub conventional_in_proportion: Option<Figures>,
 }
 
-/// What one system made of a cycle.
+/// Figures of a cycle on one system.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Figures {
     /// Scans from the first command to the last.
     pub scans: usize,
-    /// The same in seconds.
+    /// Those scans in seconds.
     pub seconds: f64,
-    /// The command at the end less the target, in counts.
+    /// Command at the end less the target, in counts.
     pub end_error_counts: [i64; 2],
-    /// Of the axis that leads, or has the longer way where none does: the largest change of the
-    /// commanded speed from scan to scan.
+    /// Largest change of the commanded speed from scan to scan, on the master axis or, without one,
+    /// on the axis with the longer way.
     pub master_acceleration_counts_per_scan2: u64,
-    /// Of the other axis.
+    /// Largest such change on the other axis.
     pub slave_acceleration_counts_per_scan2: u64,
     /// Largest deviation of the commands from the ideal line, along the slave axis.
     pub deviation_lsb: f64,
-    /// The same perpendicular to the line.
+    /// Largest deviation perpendicular to the line.
     pub deviation_perpendicular_counts: f64,
     /// Largest distance of the motors from the line, until the next cycle begins.
     pub contour_error_counts: f64,
-    /// The same in micrometres.
+    /// That distance in micrometres.
     pub contour_error_um: f64,
 }
 

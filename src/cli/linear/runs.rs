@@ -67,7 +67,7 @@ pub struct UnderWay<'j> {
 }
 
 impl<'j> UnderWay<'j> {
-    /// One that begins.
+    /// Starts the measurements of a run.
     pub fn new(job: &'j Job) -> Self {
         UnderWay {
             job,

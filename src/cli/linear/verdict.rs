@@ -1,4 +1,4 @@
-//! Whether a run did what its targets say.
+//! Verdict on a run: its result against its targets.
 
 use super::Job;
 use super::runs::Runs;
@@ -9,7 +9,7 @@ use motion_rtl::jobs::linear_interpolator::settings::AXIS_NAMES;
 use motion_rtl::jobs::linear_interpolator::targets::Target;
 use motion_rtl::jobs::linear_interpolator::ways::Way;
 
-/// What is wrong with a run; empty where nothing is.
+/// Returns the complaints about a run; empty if it met its targets.
 pub fn complaints(job: &Job, runs: &Runs) -> Vec<String> {
     let targets = &job.compiled.targets;
     let rule = Some(job.settings.rule);
@@ -28,7 +28,7 @@ pub fn complaints(job: &Job, runs: &Runs) -> Vec<String> {
                 .map(|text| format!("master {name}: {text}")),
         );
     }
-    // That its path bends is what the conventional system is there to show.
+    // A bent path is no fault of the conventional system: the comparison is there to show it.
     let ways = Way::ALL.iter().zip(runs.conventional.iter().flatten());
     for (way, run) in ways {
         let texts = of_system(&run.played, &run.segments, targets, None);

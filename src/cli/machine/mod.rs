@@ -35,7 +35,7 @@ const TICK_S: f64 = 150e-9;
 const SAMPLES_SHOWN: u64 = 300;
 const SAMPLES_BEFORE: u64 = 20;
 
-/// What the save file shows on top.
+/// Signals at the top of the save file.
 const OVERVIEW: [&str; 28] = [
     "enables.unit",
     "enables.scan",

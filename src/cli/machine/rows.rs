@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 
 /// Name of the servo motors in the table of ends.
 pub const ENCODERS: &str = "encoders";
-/// What the ends call the first machine.
+/// Name of the step motors in the table of ends.
 pub const STEPPERS: &str = "steppers";
 
 /// A point as near is on the path: floating point puts it there.
@@ -18,25 +18,25 @@ const ON_PATH_MM: f64 = 1e-9;
 /// A piece of the path by both machines.
 #[derive(Debug, Serialize)]
 pub struct PieceRow {
-    /// Its number.
+    /// Index of the piece.
     pub piece: usize,
     /// Line of the input it stands in.
     pub line: usize,
     /// Rapid move, line or arc.
     pub kind: &'static str,
-    /// Its length.
+    /// Length.
     pub length_mm: f64,
-    /// The steppers; none where no unit time ended on it.
+    /// Farthest point of the steppers; `None` if no unit time ended on the piece.
     pub steppers: Option<FarthestRow>,
     /// Time that the steppers took.
     pub steppers_s: f64,
-    /// Largest distance of the servos' commands; none where the servos did not come to it.
+    /// Largest distance of the servos' commands; `None` if the servos did not reach the piece.
     pub command_um: Option<f64>,
-    /// The same of their models.
+    /// Largest distance of the servos' models.
     pub model_um: Option<f64>,
-    /// The same of the motors.
+    /// Largest distance of the motors.
     pub motor_um: Option<f64>,
-    /// The loads.
+    /// Farthest point of the loads.
     pub load: Option<FarthestRow>,
     /// Counts that the correction left the motors beside the piece's end.
     pub left_by_correction: Option<[i64; 2]>,
@@ -44,16 +44,16 @@ pub struct PieceRow {
     pub servos_s: Option<f64>,
 }
 
-/// Where a machine is farthest from a piece.
+/// Point at which a machine is farthest from a piece.
 #[derive(Debug, Serialize)]
 pub struct FarthestRow {
     /// The distance.
     pub um: f64,
     /// The tick.
     pub tick: u64,
-    /// What most of it comes from; nothing where it is on the path.
+    /// Main cause of the distance; `None` if the machine is on the path.
     pub reason: Option<&'static str>,
-    /// How much of it.
+    /// Share of the main cause.
     pub share_um: f64,
 }
 
@@ -108,22 +108,22 @@ fn row(job: &Job, one: &PieceMeasured) -> Option<PieceRow> {
     })
 }
 
-/// Where something ended.
+/// End position of a machine.
 #[derive(Debug, Serialize)]
 pub struct EndRow {
-    /// What.
+    /// Name of the machine's drive.
     pub what: &'static str,
-    /// In millimetres.
+    /// Position in millimetres.
     pub mm: [f64; 2],
-    /// In steps or counts from the machine's zero.
+    /// Position in steps or counts from the machine's zero.
     pub position: [i64; 2],
-    /// The nearest to the job's end.
+    /// The position nearest to the job's end.
     pub wanted: [i64; 2],
     /// Steps or counts.
     pub unit: &'static str,
 }
 
-/// Of each machine.
+/// Returns the end positions.
 pub fn ends(ends: &Ends) -> [EndRow; 3] {
     let [stepper, wanted_steps] = ends.stepper_steps;
     let [command, wanted_counts] = ends.command_counts;

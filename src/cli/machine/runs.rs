@@ -47,7 +47,7 @@ pub struct UnderWay<'a> {
 }
 
 impl<'a> UnderWay<'a> {
-    /// One that begins.
+    /// Starts the measurements of a run.
     pub fn new(job: &'a Job, plan: &'a Plan<'a>) -> Self {
         let none = || Thinned::by(|one: &Beside| [one.mm(), one.actual[0], one.actual[1]]);
         UnderWay {

@@ -1,4 +1,4 @@
-//! Whether both machines did the job.
+//! Verdict on a run of both machines.
 
 use super::Job;
 use super::rows;
@@ -6,7 +6,7 @@ use motion_rtl::jobs::machine::job::Played;
 use motion_rtl::jobs::machine::measure::Ends;
 use motion_rtl::jobs::machine::program::Move;
 
-/// What is wrong with the run; empty where nothing is.
+/// Returns the complaints about the run; empty if both machines did the job.
 pub fn complaints(job: &Job, played: &Played, ends: &Ends) -> Vec<String> {
     let mut all = Vec::new();
     all.extend(causes(job, played));
@@ -29,7 +29,7 @@ pub fn complaints(job: &Job, played: &Played, ends: &Ends) -> Vec<String> {
     all
 }
 
-/// What was too late or too fast, with the keys that make it so.
+/// Returns the causes of a late or too fast run, with the keys behind each.
 fn causes(job: &Job, played: &Played) -> Vec<String> {
     let (settings, causes) = (&job.settings, played.causes);
     let motion = &settings.motion;
@@ -96,7 +96,7 @@ fn restless(job: &Job, played: &Played) -> String {
     )
 }
 
-/// Whether the run ended, by the servos' fault, before the steppers could.
+/// Returns true if a fault of the servos ended the run before the steppers finished.
 pub fn steppers_cut_off(job: &Job, played: &Played) -> bool {
     !played.settled && played.ticks < job.program.table.total_ticks()
 }

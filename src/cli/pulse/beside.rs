@@ -29,7 +29,7 @@ pub struct Row {
     pub jitter_ticks_max: f64,
     /// Largest distance from the exact demand at the end of a unit time.
     pub end_error_steps_max: f64,
-    /// Whether the driver's shortest times were kept.
+    /// True if the driver's minimum times were met.
     pub timing_kept: bool,
     /// Adders, subtractors and comparators.
     pub adders: u64,

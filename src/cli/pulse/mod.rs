@@ -41,7 +41,7 @@ const TICK_S: f64 = 20e-9;
 /// Unit times that the save file's window shows.
 const UNITS_SHOWN: u64 = 6;
 
-/// What the save file shows on top; an axis that the job has not is left out.
+/// Signals at the top of the save file; those of axes that the job lacks are omitted.
 const OVERVIEW: [&str; 19] = [
     "unit_rst",
     "x.memory.half_period",
@@ -125,7 +125,7 @@ fn simulate(
     let shown = shown.map_err(RunError::from)?;
     let traces = Traces::begin((&shown, group), arguments, scenario, options, ticks)?;
     let in_waves = in_waves(arguments, options, ticks);
-    // Where nobody has to see every tick, idle ones are gone over.
+    // Idle ticks are skipped if nothing has to see every tick.
     let idle = skips && motors.is_none() && traces.is_empty();
     let seconds = match idle {
         true => table.units() as f64 * UNIT_S,

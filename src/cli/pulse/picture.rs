@@ -20,7 +20,7 @@ pub struct Following {
     pub end_error: f64,
     /// Time in seconds and error in steps, for each axis.
     curves: Vec<Points>,
-    /// Where the pulses took the axes, in millimetres.
+    /// Position of the axes by their pulses, in millimetres.
     pulsed: Pair,
 }
 
@@ -88,7 +88,7 @@ pub fn draw(job: &Job, following: Following) -> String {
         .render()
 }
 
-/// Where a position is, in millimetres.
+/// Converts a position in steps to millimetres.
 fn pulsed_point(job: &Job, positions: &[i32]) -> (f64, f64) {
     let coordinate = |axis: usize| {
         let of = job.report.axes.get(axis)?;
@@ -133,7 +133,7 @@ impl Pair {
         }
     }
 
-    /// Those that draw, and those that do not.
+    /// Returns the points of drawing moves and of rapid moves.
     fn points(self) -> (Points, Points) {
         (self.drawn.points, self.rapid.points)
     }

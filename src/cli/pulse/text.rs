@@ -71,7 +71,7 @@ impl Report for Summary {
 }
 
 impl Summary {
-    /// How well each device played the program, with the least T where it was looked for.
+    /// Writes how well each device played the program, with the least T if it was searched for.
     fn played(&self, text: &mut String, name: impl Fn(&str) -> String) -> std::fmt::Result {
         let rows = self.circuits.iter();
         let searched = rows.clone().any(|row| row.unit_ticks_least.is_some());

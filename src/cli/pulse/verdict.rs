@@ -1,4 +1,4 @@
-//! Whether a run did what its table says and what its driver asks for.
+//! Verdict on a run: its pulses against the table and the driver's timing.
 
 use super::Job;
 use super::summary::Minima;
@@ -7,7 +7,7 @@ use motion_rtl::jobs::pulse_interpolator::Table;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
 use motion_rtl::jobs::pulse_interpolator::positions::steps_of;
 
-/// What is wrong with a run, axis by axis; empty where nothing is.
+/// Returns the complaints about a run, axis by axis; empty if there are none.
 pub fn complaints(job: &Job, played: &Played) -> Vec<String> {
     let mut complaints = Vec::new();
     for (axis, name) in AXIS_NAMES.iter().enumerate().take(job.table.axes()) {

@@ -38,7 +38,7 @@ const TICK_S: f64 = 100e-9;
 /// Periods that the save file's window shows.
 const PERIODS_SHOWN: u64 = 4;
 
-/// What the save file begins with: from the length along the path to the loads.
+/// Signals at the top of the save file, from the length along the path to the loads.
 const OVERVIEW: [&str; 20] = [
     "sampled",
     "fresh",

@@ -14,10 +14,10 @@ use motion_rtl::picture::{Curve, Panel, Picture, Points as Thinning};
 const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 
 const IDEAL: &str = "#d8d8d8";
-/// What is planned.
+/// Colour of the plan.
 const PLANNED: &str = "#8c8c8c";
 
-/// What is at full feed where the rest is slower.
+/// Colour of the run at full feed, where the others are slower.
 const FULL_FEED: &str = "#d55e00";
 
 /// The loads' speed.
@@ -130,7 +130,7 @@ fn ideal(job: &Job) -> [Points; 2] {
     parts
 }
 
-/// Where the loads were, their distance from the path multiplied.
+/// Returns the points of the loads, their distance from the path multiplied by `factor`.
 fn magnified(run: &Run, factor: f64) -> Points {
     let points = run.shown.iter().map(|one| {
         if one.rapid {

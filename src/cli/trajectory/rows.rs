@@ -11,46 +11,46 @@ use motion_rtl::jobs::trajectory_controller::speed_limits::spans;
 use motion_rtl::plant::TwoMassAxis;
 use serde::Serialize;
 
-/// What one correction came to.
+/// Figures of the run by one correction.
 #[derive(Debug, Serialize)]
 pub struct CorrectionRow {
-    /// What the run is called.
+    /// Name of the run.
     #[serde(skip)]
     pub name: &'static str,
     /// The correction.
     pub correction: &'static str,
-    /// It is at full feed, where a contour tolerance limits that of the others.
+    /// True at full feed, beside runs that a contour tolerance limits.
     pub full_feed: bool,
-    /// Time that the path is planned in.
+    /// Planned duration of the path.
     pub planned_seconds: f64,
-    /// Its waves are written.
+    /// True if its waves are written.
     pub in_waves: bool,
     /// Ticks of the run.
     pub ticks: u64,
     /// Interpolation periods until models and motors have settled.
     pub periods: usize,
-    /// Of the servos' models: what the motors are held to.
+    /// Errors of the servos' models, which the motors follow.
     pub model: ErrorRow,
-    /// Of the motors, by their encoders.
+    /// Errors of the motors by their encoders.
     pub motor: ErrorRow,
-    /// Of the loads.
+    /// Errors of the loads.
     pub load: ErrorRow,
     /// Each axis.
     pub axes: Vec<AxisRow>,
-    /// On a circle, where the path has one that is long enough.
+    /// Errors on a circle, if the path has one that is long enough.
     pub circle: Option<CircleRow>,
 }
 
-/// How far something was from the path and from its commands.
+/// Distances from the path and from the commands.
 #[derive(Debug, Serialize)]
 pub struct ErrorRow {
     /// Largest distance from the path.
     pub contour_max_um: f64,
-    /// Root of the mean square of it.
+    /// RMS distance from the path.
     pub contour_rms_um: f64,
-    /// Where the largest is: length along the path.
+    /// Length along the path at the largest distance.
     pub at_mm: f64,
-    /// The tick of it.
+    /// Tick of the largest distance.
     pub at_tick: u64,
     /// Largest distance from the command of the same period.
     pub following_max_mm: f64,
@@ -63,7 +63,7 @@ pub struct ErrorRow {
 pub struct AxisRow {
     /// Its name.
     pub axis: &'static str,
-    /// Where its motor ended, in counts from where the path begins.
+    /// End position of its motor, in counts from the path's start.
     pub end_position: i64,
     /// Largest torque.
     pub torque_max_nm: f64,
@@ -84,11 +84,11 @@ pub struct CircleRow {
     pub periods: usize,
     /// Distance of the models from the circle.
     pub model_um: f64,
-    /// Of the loads.
+    /// Distance of the loads from the circle.
     pub load_um: f64,
-    /// What the closed form of continuous models says.
+    /// Distance by the closed form of continuous models.
     pub continuous_um: f64,
-    /// What that of the sampled models says.
+    /// Distance by the closed form of the sampled models.
     pub sampled_um: f64,
 }
 
@@ -109,9 +109,9 @@ pub struct SegmentRow {
     pub radius_mm: Option<f64>,
     /// F.
     pub speed_wanted_mm_per_s: f64,
-    /// What the acceleration across the path allows of it.
+    /// Limit of F by the acceleration across the path.
     pub speed_limit_mm_per_s: f64,
-    /// Highest speed where it begins, by the turn.
+    /// Highest speed at its start, by the turn.
     pub entry_limit_mm_per_s: f64,
     /// The planned speed there.
     pub entry_mm_per_s: f64,

@@ -1,4 +1,4 @@
-//! What a path came to by each correction.
+//! Runs of a path by each correction.
 
 use super::Job;
 use crate::cli::thinned::Thinned;
@@ -14,7 +14,7 @@ use std::array::from_fn;
 /// The period whose tick the save file's window begins with.
 pub const IN_MOTION: usize = 200;
 
-/// What the run at full feed is called.
+/// Name of the run at full feed.
 pub const FULL_FEED: &str = "vector, full feed";
 
 /// The runs of a path.
@@ -40,13 +40,13 @@ impl Runs {
 pub struct Run {
     /// The correction.
     pub correction: Correction,
-    /// It is at full feed, where the others are slower for a contour tolerance.
+    /// True at full feed, beside runs that a contour tolerance slows down.
     pub full_feed: bool,
-    /// Time that the path is planned in, in s.
+    /// Planned duration of the path in s.
     pub planned_s: f64,
     /// Ticks of the run.
     pub ticks: u64,
-    /// The tick in which the path began; before it was written.
+    /// Tick at which the path began; it was written before.
     pub start: u64,
     /// Interpolation periods.
     pub periods: usize,
@@ -56,11 +56,11 @@ pub struct Run {
     pub command_error_mm: f64,
     /// Distance of the last command from the path's end, in mm.
     pub end_mm: f64,
-    /// Where the motors ended, in counts from where the path begins.
+    /// End positions of the motors, in counts from the path's start.
     pub end_counts: Vec<i64>,
-    /// Measured.
+    /// Measurements of the run.
     pub measured: Measured,
-    /// On a circle at constant speed.
+    /// Steady part on a circle at constant speed.
     pub circle: Option<Steady>,
     /// Largest contour error of the loads on what is drawn, in mm.
     pub largest_drawn_mm: f64,
@@ -68,20 +68,20 @@ pub struct Run {
     pub segments: Vec<Option<f64>>,
     /// The periods, thinned for the picture.
     pub shown: Thinned<Shown, 5>,
-    /// A period began before the one before was over.
+    /// True if a period began before the previous one was over.
     pub late: bool,
-    /// The profile ended in motion.
+    /// True if the profile ended in motion.
     pub starved: bool,
-    /// An encoder was too fast.
+    /// True if an encoder was too fast.
     pub lost: bool,
-    /// Models and motors came to rest.
+    /// True if models and motors came to rest.
     pub settled: bool,
 }
 
 /// A period as the picture shows it: the loads.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown {
-    /// Where they were.
+    /// Deviation of the loads.
     pub load: Deviation,
     /// True on a rapid move.
     pub rapid: bool,
@@ -115,7 +115,7 @@ pub struct UnderWay<'j> {
 }
 
 impl<'j> UnderWay<'j> {
-    /// One that begins.
+    /// Starts the measurements of a run.
     pub fn new(job: &'j Job, program: &'j Program, correction: Correction) -> Self {
         UnderWay {
             job,
@@ -197,7 +197,7 @@ impl<'j> UnderWay<'j> {
 }
 
 impl Run {
-    /// Of what was played; none where there is no period.
+    /// Measures a finished run; `None` if it has no period.
     #[cfg(test)]
     pub fn of(job: &Job, correction: Correction, played: &Played) -> Option<Self> {
         let mut run = UnderWay::new(job, &job.program, correction);
@@ -205,7 +205,7 @@ impl Run {
         run.finish(played)
     }
 
-    /// What it is called.
+    /// Returns the name of the run.
     pub fn name(&self) -> &'static str {
         match self.full_feed {
             false => self.correction.name(),

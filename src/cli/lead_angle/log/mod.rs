@@ -59,9 +59,9 @@ struct Row {
     position: i64,
     /// Position a lead time later; `null` where the log is over by then.
     position_after: Option<f64>,
-    /// Where its operation took effect, less the target; `null` where there is none.
+    /// Position at which the operation took effect, less the target; `null` if there is none.
     effect_error_counts: Option<f64>,
-    /// `position_after` less the target: what the prediction was off.
+    /// `position_after` less the target: the error of the prediction.
     error_counts: Option<f64>,
 }
 

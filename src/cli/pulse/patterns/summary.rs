@@ -1,4 +1,4 @@
-//! What came of patterns that were played.
+//! Summary of a run of patterns.
 
 use super::Job;
 use crate::cli::pulse::by_axis::ByAxis;
@@ -15,23 +15,22 @@ use motion_rtl::jobs::pulse_interpolator::{StepTiming, Table};
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// What came of patterns that were played.
+/// Summary of a run of patterns.
 #[derive(Debug, Serialize)]
 pub struct Summary {
     #[serde(flatten)]
     outcome: Outcome,
-    /// What RST cleared.
+    /// Reset variant: the state that RST clears.
     variant: &'static str,
-    /// Whether every unit time has the pulses that its word makes, and every axis kept the driver's
-    /// timing.
+    /// True if every unit time has the pulses of its word and every axis met the driver's timing.
     exact: bool,
-    /// Whether there is no control computer.
+    /// True without a control computer.
     standalone: bool,
-    /// Commands that it gave.
+    /// Commands that the control computer gave.
     commands: usize,
-    /// Times that it wrote T while patterns were played.
+    /// Number of times that it wrote T during playback.
     rewrites: usize,
-    /// Words of an axis that patterns take in the memory, and how many there are.
+    /// Words of memory per axis: used by the patterns, and in total.
     memory_words: [u64; 2],
     patterns: Vec<PatternSummary>,
     axes: ByAxis<AxisSummary>,
@@ -48,17 +47,17 @@ pub struct Summary {
 struct PatternSummary {
     name: String,
     table: String,
-    /// Its first and its last address.
+    /// First and last address.
     addresses: [u64; 2],
-    /// Its unit times T, in the order in which they come.
+    /// Unit times T in the order of playback.
     unit_ticks: Vec<u32>,
-    /// Whether it ends where it begins, as it was given.
+    /// True if the path in the input ends where it begins.
     closed: bool,
-    /// Steps from where it begins to where it ends, as it is played, of each axis.
+    /// Steps from the start to the end of the played pattern, per axis.
     end_steps: Vec<i64>,
-    /// The ratio that its data were multiplied by.
+    /// Factor by which the data were scaled.
     scale: Option<String>,
-    /// What that did to each axis: where the path was closed, `drift_steps` is how far it is open.
+    /// Effect of scaling on each axis; on a closed path `drift_steps` is the gap.
     scaling: Option<Vec<AxisDeviation>>,
 }
 
