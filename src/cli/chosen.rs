@@ -32,7 +32,7 @@ pub struct Chosen {
     changes: Changes,
 }
 
-/// The circuit of that name.
+/// Returns the circuit with that name.
 pub fn entry(name: &str) -> Result<&'static Entry, Failure> {
     find(name).ok_or_else(|| {
         let names = || CATALOGUE.iter().map(|entry| entry.name);
@@ -145,7 +145,7 @@ impl Changes {
     }
 }
 
-/// The options again.
+/// Formats the options as on the command line.
 impl fmt::Display for Changes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(numbers) = &self.with {
@@ -160,7 +160,7 @@ impl fmt::Display for Changes {
     }
 }
 
-/// The arguments again.
+/// Formats the arguments as on the command line.
 impl fmt::Display for Chosen {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}{}", self.circuit, self.changes)

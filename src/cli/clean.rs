@@ -23,7 +23,7 @@ pub struct Arguments {
     yes: bool,
 }
 
-/// Names the files that runs have made and that are as they left them, and removes these.
+/// Lists the unchanged files of earlier runs and removes them.
 pub fn clean(arguments: &Arguments) -> Result<(), Failure> {
     let directory = &arguments.directory;
     if !directory.is_dir() {
@@ -67,7 +67,7 @@ pub fn clean(arguments: &Arguments) -> Result<(), Failure> {
     ))
 }
 
-/// Asks whether to remove so many files.
+/// Asks for consent to remove `count` files.
 fn agreed(count: usize) -> Result<bool, Failure> {
     if !stdin().is_terminal() {
         return Err(Failure::Argument {

@@ -8,9 +8,9 @@ use std::path::PathBuf;
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The waveform that is right: VCD, FST or GHW.
+    /// Reference waveform: VCD, FST or GHW.
     golden: PathBuf,
-    /// The waveform to hold against it: VCD, FST or GHW.
+    /// Waveform to compare with it: VCD, FST or GHW.
     other: PathBuf,
     /// Names that differ and signals to leave out, in TOML.
     #[arg(long, value_name = "FILE")]
@@ -18,26 +18,25 @@ pub struct Arguments {
     /// The clock, by its path or the end of its path.
     #[arg(long, value_name = "NAME", default_value = "clk")]
     clock: String,
-    /// The other file's clock, where it has another name.
+    /// Clock of OTHER, if it has another name.
     #[arg(long, value_name = "NAME")]
     other_clock: Option<String>,
-    /// Pairs names that differ in upper and lower case only, where no other name is equal.
+    /// Pairs names that differ only in case, if no name matches exactly.
     #[arg(long)]
     ignore_case: bool,
-    /// The ports out of GOLDEN, by their paths or the ends of them, where it does not tell them itself:
-    /// waves of this program do, and an FST or GHW with directions.
+    /// Output ports of GOLDEN, by their paths or path ends. Needed if the file does not mark them:
+    /// waves of this program do, and so does an FST or GHW with directions.
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     ports_out: Vec<String>,
-    /// Ports out of GOLDEN to leave out, by their paths or the ends of them. Any other one that is not
-    /// compared is a difference.
+    /// Output ports of GOLDEN to leave out, by their paths or path ends. Any other output port that
+    /// is not compared is a difference.
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     leave: Vec<String>,
-    /// The scope of the other file that stands for golden's outermost scope, by its path or the end
-    /// of its path; without it the one with the most signals of golden's, or none where the map
-    /// names scopes.
+    /// Scope of OTHER that corresponds to GOLDEN's outermost scope, by its path or path end. By
+    /// default the scope with the most signals of GOLDEN, or none if the map names scopes.
     #[arg(long, value_name = "PATH")]
     scope: Option<String>,
-    /// Ticks to leave out at the beginning of OTHER: its reset. Below 0 where OTHER begins later.
+    /// Ticks to skip at the beginning of OTHER, for its reset; negative if OTHER begins later.
     #[arg(
         long,
         value_name = "TICKS",
@@ -46,7 +45,7 @@ pub struct Arguments {
         allow_negative_numbers = true
     )]
     skip: i64,
-    /// First tick to compare, in golden's count.
+    /// First tick to compare, counted in GOLDEN.
     #[arg(
         long,
         value_name = "TICK",
@@ -65,29 +64,28 @@ pub struct Arguments {
         default_value_t = 4
     )]
     around: u64,
-    /// A golden signal without partner, or with one and without a value to compare, is a difference.
+    /// Counts as a difference each signal of GOLDEN that has no partner or no value to compare.
     #[arg(long)]
     strict: bool,
-    /// Ports in of golden's outermost scope may be without partner, and hardly anything may have one;
-    /// otherwise that is a difference. Ports out are compared all the same.
+    /// Accepts input ports of GOLDEN's outermost scope without partner, and few signals with one;
+    /// otherwise both are differences. Output ports are still compared.
     #[arg(long, conflicts_with = "strict")]
     allow_missing: bool,
-    /// One file may have ticks behind the other's last one; otherwise that is a difference.
+    /// Accepts files of different length; otherwise that is a difference.
     #[arg(long)]
     any_length: bool,
-    /// Cuts no list short, and lists the other file's signals without partner too.
+    /// Prints full lists, and also lists the signals of OTHER without partner.
     #[arg(long)]
     all: bool,
-    /// Prints a map to fill in, instead of comparing: golden's signals without partner and the
-    /// other file's.
+    /// Prints a map to fill in instead of comparing: the signals of GOLDEN and of OTHER without
+    /// partner.
     #[arg(long, conflicts_with_all = ["strict", "any_length", "all", "json"])]
     template: bool,
-    /// Prints the report as JSON, with nothing cut short.
+    /// Prints the report as JSON, with full lists.
     #[arg(long)]
     json: bool,
 }
 
-/// Compares.
 pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
     let map = match &arguments.map {
         Some(path) => Map::read(path)?,

@@ -77,7 +77,7 @@ impl Connections {
         })
     }
 
-    /// Lines below those of the circuit's ports.
+    /// Returns the lines to print below the circuit's ports.
     pub fn text(&self) -> String {
         let mut text = String::new();
         // Writing to a string does not fail.

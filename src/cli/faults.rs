@@ -1,4 +1,4 @@
-//! Faults of a file as they are told: all of them, with their lines.
+//! Report of all faults of a file, with their lines.
 
 use super::voice;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};

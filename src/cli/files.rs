@@ -169,7 +169,7 @@ impl Files {
         parent.unwrap_or(Path::new("."))
     }
 
-    /// Names them all; returns the names and sizes. Where one cannot be named, none is there.
+    /// Gives all files their final names; returns names and sizes. If one fails, none remains.
     pub fn commit(self) -> Result<Vec<Named>, Failure> {
         let directory = self.directory().to_owned();
         // One run at a time, so that what is checked is what is replaced.

@@ -19,7 +19,7 @@ pub fn check() -> Result<(), Failure> {
     }
 }
 
-/// Limit in bytes, as the system lists it; none where it says "unlimited".
+/// Limit in bytes, as the system lists it; `None` if "unlimited".
 fn address_space(limits: &str) -> Option<u64> {
     let line = limits
         .lines()

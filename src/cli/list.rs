@@ -17,7 +17,7 @@ use std::fmt::Write as _;
 /// Arguments of `list`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Only this circuit, with what it is made of: its parts, and what drives their ports in.
+    /// Lists only this circuit, with its parts and the drivers of their input ports.
     circuit: Option<String>,
     #[command(flatten)]
     changes: Changes,
@@ -39,7 +39,7 @@ struct Circuit {
     name: &'static str,
     about: &'static str,
     source: &'static str,
-    /// Keys with their values as it is built and as it is proved.
+    /// Keys with their values in the full and the small circuit.
     keys: BTreeMap<String, Values>,
     inputs: Vec<Port>,
     outputs: Vec<Port>,
@@ -83,7 +83,6 @@ impl Scenario {
     }
 }
 
-/// Lists.
 pub fn list(arguments: &Arguments) -> Result<(), Failure> {
     let listing = match &arguments.circuit {
         None if !arguments.changes.is_empty() => {
@@ -178,7 +177,7 @@ fn text(listing: &Listing) -> String {
     text
 }
 
-/// The keys with their full values, and those that are others in the small circuit.
+/// Returns the keys with their full values, and those with other values in the small circuit.
 fn keys(keys: &BTreeMap<String, Values>) -> [(&'static str, String); 2] {
     let list = |of: &dyn Fn(&Values) -> Option<String>| {
         let all = keys

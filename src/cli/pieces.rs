@@ -13,7 +13,6 @@ const ORIGIN: Point = [0.0; 3];
 /// Speeds of a scenario, for pieces without an own speed, and their keys.
 #[derive(Debug, Clone, Copy)]
 pub struct SpeedKeys {
-    /// The speeds.
     pub speeds: Speeds,
     /// Key of the speed of lines and arcs.
     pub key: &'static str,

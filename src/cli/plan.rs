@@ -31,7 +31,6 @@ pub struct Arguments {
     seed: u64,
 }
 
-/// Prints the plan.
 pub fn plan(arguments: &Arguments) -> Result<(), Failure> {
     let circuit = arguments.chosen.model()?;
     let model = circuit.model().map_err(RunError::from)?;

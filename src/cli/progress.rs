@@ -21,7 +21,7 @@ const PROGRESS: u64 = 1 << 18;
 /// Nanoseconds that a tick takes longer in the waves.
 const WAVES_NS: f64 = 300.0;
 
-/// Work under way.
+/// Current stage of the work.
 struct Stage {
     name: &'static str,
     /// Ticks of all runs together; 0 where there are none.
@@ -108,7 +108,7 @@ fn line(stage: &Stage, done: u64, after: Duration) -> String {
     }
 }
 
-/// Says something on standard error with its time, if stages are told.
+/// Prints a stage with its time on standard error, if `--verbose` is set.
 pub fn tell(text: &str) {
     if voice::is_verbose() {
         let seconds = BEGAN.elapsed().as_secs_f64();
@@ -169,7 +169,7 @@ fn about(seconds: f64) -> String {
     }
 }
 
-/// Tells no more.
+/// Ends the progress report.
 pub fn end() {
     STAGE.lock().unwrap_or_else(PoisonError::into_inner).name = "";
     BAR.finish_and_clear();

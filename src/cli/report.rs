@@ -30,7 +30,7 @@ pub struct Outcome {
     pub warnings: Vec<String>,
     /// Ticks in the waves, half-open; `null` without waves.
     pub vcd_window: Option<[u64; 2]>,
-    /// The files written.
+    /// Written files.
     pub files: Vec<Named>,
 }
 
@@ -127,14 +127,14 @@ pub fn conclude(
     }
 }
 
-/// The first of some complaints of a kind, and how many more there are.
+/// Returns the first complaint of one kind and the count of the others.
 pub fn first(all: impl Iterator<Item = String>) -> Option<String> {
     let mut first = First::default();
     all.for_each(|text| first.add(|| text));
     first.text()
 }
 
-/// Complaints of a kind as they come, of which the first stands for all.
+/// Collector of complaints of one kind: keeps the first and counts the others.
 #[derive(Debug, Default)]
 pub struct First {
     text: Option<String>,
@@ -142,7 +142,6 @@ pub struct First {
 }
 
 impl First {
-    /// Adds a complaint.
     pub fn add(&mut self, text: impl FnOnce() -> String) {
         match self.text {
             None => self.text = Some(text()),

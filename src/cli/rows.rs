@@ -46,7 +46,7 @@ pub fn table<'h>(
     Ok(())
 }
 
-/// A number with so many decimals, without the sign of what rounds to nothing.
+/// Formats a number with `decimals` decimals; a number that rounds to zero has no sign.
 pub fn fixed(value: f64, decimals: usize) -> String {
     let shown = format!("{value:.decimals$}");
     let nothing = shown.bytes().all(|byte| b"-0.".contains(&byte));

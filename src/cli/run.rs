@@ -62,7 +62,6 @@ pub struct Arguments {
     pub(super) json: bool,
 }
 
-/// Runs a job.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     progress::begin();
     let done = play(arguments);

@@ -1,5 +1,4 @@
-//! Scenarios that ship with the crate, with the inputs of those that have one; the first runs where
-//! none is named.
+//! Scenarios that ship with the crate, with their inputs; the first is the default of `run`.
 
 use motion_rtl::input::{Drawing, Fault, Options, read_text_with};
 use motion_rtl::jobs::pulse_interpolator::Table;
@@ -57,7 +56,7 @@ macro_rules! embedded {
     };
 }
 
-/// All of them.
+/// All shipped scenarios.
 pub const SHIPPED: [Shipped; 20] = [
     shipped!(
         "waves/machine.toml",
@@ -178,7 +177,7 @@ impl Shipped {
         }
     }
 
-    /// Its input; none where it is complete without.
+    /// Returns its drawing; `None` if the scenario needs no input.
     pub fn drawing(&self, options: &Options) -> Option<Result<Drawing, Fault>> {
         let input = self.input.as_ref()?;
         Some(read_text_with(input.file, input.text.as_bytes(), options))

@@ -64,7 +64,6 @@ impl From<&AxisScaling> for AxisDeviation {
     }
 }
 
-/// Compiles.
 pub fn table(arguments: &Arguments) -> Result<(), Failure> {
     let job = Job::prepare(Source::read(&arguments.input)?, false)?;
     if let Some(path) = &arguments.out {
@@ -149,7 +148,7 @@ fn scale(table: &Table, text: &str) -> Result<Scaled, Failure> {
     })
 }
 
-/// A ratio as it is written, or what is allowed.
+/// Parses a ratio; the error is what is allowed.
 pub fn ratio(text: &str) -> Result<Ratio, &'static str> {
     let (num, den) = text.split_once('/').unwrap_or((text, "1"));
     let number = |text: &str| text.trim().parse::<u32>().ok().filter(|number| *number > 0);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-/// Records of a run with at most so many are all kept.
+/// Most records of a run that are all kept.
 const MOST: usize = 40_000;
 
 /// Records of a run of any length, for a picture. Of many, every interval keeps its first and last
@@ -13,7 +13,7 @@ pub struct Thinned<T, const K: usize> {
     numbers: fn(&T) -> [f64; K],
     /// Records of an interval.
     interval: usize,
-    /// Records so far.
+    /// Count of all records so far.
     count: usize,
     /// The records kept, each with its number from 0.
     kept: Vec<(usize, T)>,
@@ -22,7 +22,7 @@ pub struct Thinned<T, const K: usize> {
 }
 
 impl<T: Copy, const K: usize> Thinned<T, K> {
-    /// None yet; the extremes of these numbers are to be kept.
+    /// Starts without records; the extremes of these numbers are kept.
     pub fn by(numbers: fn(&T) -> [f64; K]) -> Self {
         Thinned {
             numbers,
@@ -33,7 +33,6 @@ impl<T: Copy, const K: usize> Thinned<T, K> {
         }
     }
 
-    /// Adds one.
     pub fn push(&mut self, record: T) {
         let ended = self.interval > 1 && self.count.is_multiple_of(self.interval);
         if ended && self.latest < self.kept.len() {

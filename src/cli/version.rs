@@ -1,4 +1,4 @@
-//! Version of the program, and what it was built from and with.
+//! Version of the program, its source and its compiler.
 
 use std::sync::LazyLock;
 

@@ -21,10 +21,10 @@ pub enum Color {
 /// Options of all commands.
 #[derive(Debug, Args)]
 pub struct Voice {
-    /// Prints errors only, and JSON where it is asked for.
+    /// Prints only errors and requested JSON.
     #[arg(long, short, global = true, conflicts_with = "verbose")]
     quiet: bool,
-    /// Says on standard error what is read, what is under way and when each stage began.
+    /// Reports inputs, stages and their start times on standard error.
     #[arg(long, short, global = true, action = ArgAction::SetTrue)]
     verbose: bool,
     /// When help and errors are coloured.
@@ -70,7 +70,7 @@ pub fn is_quiet() -> bool {
     QUIET.load(Relaxed)
 }
 
-/// True if stages are told.
+/// True if `--verbose` is set.
 pub fn is_verbose() -> bool {
     VERBOSE.load(Relaxed)
 }

@@ -51,8 +51,8 @@ pub struct Ending {
 pub type Staged<C, P> = (C, Model, P);
 
 impl<'a> System<'a> {
-    /// A system of this name in the summary, whose run takes about so many ticks; `make` gives
-    /// circuit, model and run.
+    /// Creates a system with its name in the summary and the approximate ticks of its run; `make`
+    /// returns circuit, model and run.
     pub fn new<C, P>(
         name: impl Into<String>,
         ticks: u64,

@@ -36,7 +36,7 @@ impl Written {
         }
     }
 
-    /// Returns those of some paths in the directory that no file of others has.
+    /// Returns the paths in the directory that no other file occupies.
     pub fn free<'a>(&self, paths: impl Iterator<Item = &'a Path>) -> Vec<PathBuf> {
         let ours = |path: &&Path| match path.symlink_metadata() {
             Err(_) => true,
@@ -49,7 +49,7 @@ impl Written {
         self.files.contains_key(name)
     }
 
-    /// Adds files that a run has made. Where the list cannot be written, `clean` does not know them.
+    /// Adds the files of a run. If the list cannot be written, `clean` does not know them.
     pub fn add(&self, paths: &[PathBuf]) {
         let mut lines = String::new();
         for path in paths {
@@ -68,7 +68,7 @@ impl Written {
         let _ = opened.and_then(|mut file| file.write_all(lines.as_bytes()));
     }
 
-    /// Returns the files that are as a run left them, and those that changed since.
+    /// Returns the files that are unchanged since their run, and those that have changed.
     pub fn split(&self) -> (Vec<PathBuf>, Vec<PathBuf>) {
         let there = self.files.iter().filter_map(|(name, left)| {
             let path = self.directory.join(name);

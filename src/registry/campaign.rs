@@ -58,7 +58,7 @@ pub struct Suspect {
 /// Result of the search for a fault.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Fate {
-    /// Something found it.
+    /// A check found it.
     Found(Found),
     /// Nothing found it, and no run on random inputs showed it at an output port.
     Unseen,
@@ -129,7 +129,7 @@ struct Made<'c> {
 }
 
 impl Made<'_> {
-    /// Returns the netlist with a fault; nothing where the fault has no place in it.
+    /// Returns the netlist with a fault; `None` if the fault has no place in it.
     fn mutated(&self, mutation: &Mutation) -> Option<Result<Model, EngineError>> {
         mutated(mutation, || self.circuit.model())
     }
@@ -161,9 +161,9 @@ struct Shown {
 }
 
 impl Campaign {
-    /// Puts faults into a circuit, and finds what becomes of each. Where there are `pairs`, the faults
-    /// are those of the full circuit with these keys changed, else those of the circuits that the charts
-    /// are of. `progress` is called after each with the number of all.
+    /// Puts faults into a circuit and returns the fate of each. With `pairs`, the faults are those
+    /// of the full circuit with these keys changed, otherwise those of the charts' circuits.
+    /// `progress` is called after each fault with the count of all.
     ///
     /// # Errors
     /// The circuit, or one that a chart is of, cannot be made or elaborated; a chart does not hold.
@@ -196,8 +196,9 @@ impl Campaign {
         Ok(suspects.collect())
     }
 
-    /// The circuit as its charts have it, with them; before those as it is asked for, or in full where
-    /// there are no charts; and other circuits that it is inside of, with theirs.
+    /// Returns the circuits of the charts of `entry` with these charts, and circuits of other charts
+    /// that contain it. With `pairs` the full circuit with these keys comes first; without charts
+    /// the full circuit is the only one.
     fn made(
         &self,
         entry: &'static Entry,
@@ -272,8 +273,8 @@ impl Campaign {
         }
     }
 
-    /// Runs a circuit on random inputs and tells what its ports out are, tick by tick, as long as
-    /// `see` wants to know.
+    /// Runs a circuit on random inputs and passes its output ports to `see`, tick by tick, until
+    /// `see` returns false.
     fn play(&self, model: &Model, run: u64, see: &mut dyn FnMut(u64, usize, u64) -> bool) {
         let ports = model.ports_out();
         let mut engine = model.engine(Watch::All);

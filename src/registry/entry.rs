@@ -30,9 +30,9 @@ pub struct Entry {
 /// The value of a circuit that keys change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Base {
-    /// The circuit as it is built.
+    /// The circuit in full size.
     Full,
-    /// The circuit as it is proved, and as timing charts have it.
+    /// The small circuit of proofs and timing charts.
     Small,
 }
 
@@ -45,12 +45,12 @@ impl std::fmt::Debug for Entry {
 }
 
 impl Entry {
-    /// Returns the circuit as it is built.
+    /// Returns the full circuit.
     pub fn full(&self) -> Box<dyn AnyModel> {
         self.maker.value(Base::Full).model
     }
 
-    /// Returns the circuit as it is proved.
+    /// Returns the small circuit.
     pub fn small(&self) -> Box<dyn AnyModel> {
         self.maker.value(Base::Small).model
     }
@@ -104,7 +104,7 @@ impl Entry {
         widths
     }
 
-    /// Returns the signals of the circuit as it is built.
+    /// Returns the signals of the full circuit.
     pub fn declarations(&self) -> Declarations {
         self.full().outline()
     }
@@ -191,11 +191,11 @@ pub(super) fn specified<C: Specified>(circuit: C) -> Box<dyn AnyCircuit> {
 
 /// An entry: type, patent and block, the full and the small circuit.
 ///
-/// `uses: [point, data]` are the keys below `widths` that have an effect, where there are others;
+/// `uses: [point, data]` are the keys below `widths` that have an effect, if there are others;
 /// `idle: ["loops.position"]` are other keys that have none.
 /// `proved: true` says that the small circuit is proved by exhaustion. `swept: Law::new` is a law of it,
-/// and `least:` the circuit that it has the fewest cases of. Where a type stands in the catalogue more
-/// than once, `named` gives name and line.
+/// and `least:` the circuit with the fewest cases. `named` gives name and line if a type stands in
+/// the catalogue more than once.
 macro_rules! entry {
     (
         $circuit:ty, $source:literal,

@@ -32,9 +32,9 @@ pub type Source = serde_path_to_error::Error<toml::de::Error>;
 pub struct Key {
     /// Dotted name.
     pub name: String,
-    /// Value in the full circuit; none where it is not set.
+    /// Value in the full circuit; `None` if it is not set.
     pub full: Option<String>,
-    /// Value in the small circuit; none where it is not set.
+    /// Value in the small circuit; `None` if it is not set.
     pub small: Option<String>,
 }
 
@@ -137,7 +137,7 @@ fn read(entry: &Entry, table: &Table) -> Result<Made, Source> {
     entry.maker.read(parsed)
 }
 
-/// The table with the value of a pair; as it is where a key on the way has no keys inside.
+/// Returns the table with a pair's value; unchanged if a key on the way has no keys inside.
 fn changed(mut table: Table, pair: &Pair) -> Table {
     fn put(table: &mut Table, key: &str, value: Value) {
         match key.split_once('.') {
@@ -162,7 +162,7 @@ fn leaf<'t>(table: &'t Table, key: &str) -> Option<&'t Value> {
     }
 }
 
-/// The names of all keys: those of the table, and those at its top that are not set.
+/// Returns the names of all keys: those of the table, and those at its top that are not set.
 fn names(entry: &Entry, table: &Table) -> Vec<String> {
     fn add(names: &mut Vec<String>, table: &Table, before: &str) {
         for (key, value) in table {
@@ -203,7 +203,7 @@ fn is_lost(entry: &Entry, table: &Table, pair: &Pair) -> bool {
     entry.is_idle(&pair.key) || leaf(&changed(table.clone(), pair), &pair.key).is_none()
 }
 
-/// Refuses a key that there is not.
+/// Refuses an unknown key.
 fn unknown(entry: &Entry, table: &Table, pair: &Pair) -> WrongPair {
     let names = names(entry, table);
     WrongPair {
@@ -258,7 +258,7 @@ fn wrong(entry: &Entry, table: &Table, pair: &Pair) -> Option<WrongPair> {
     if message.starts_with("unknown field") && pair.key.starts_with(&path) {
         return Some(unknown(entry, table, pair));
     }
-    // A number where a variant stands: the names are those that a wrong name is told.
+    // A number in place of a variant: the allowed names come from the message about a wrong name.
     let (problem, allowed) = match message {
         "wanted string or table" if path == pair.key => {
             let names = split(&self::message(entry, table, &path)).1;
@@ -294,7 +294,7 @@ fn split(message: &str) -> (String, String) {
     (problem.to_owned(), allowed.to_owned())
 }
 
-/// A value as it is written in a pair.
+/// Formats a value as in a pair.
 fn text(value: &Value) -> String {
     match value {
         Value::String(word) => word.clone(),

@@ -15,27 +15,26 @@ use std::collections::HashMap;
 pub struct Connections {
     /// The parts, in the order in which they settle.
     pub parts: Vec<Part>,
-    /// The circuit's own nets that are ports out.
+    /// The circuit's own nets that are output ports.
     pub outputs: Vec<Connection>,
-    /// Its other nets; what drivers have in common can be one.
+    /// Its other nets, which may be shared parts of drivers.
     pub nets: Vec<Connection>,
-    /// Its own registers, with what they become at the edge.
+    /// Its own registers, with their next values.
     pub registers: Vec<Connection>,
 }
 
 /// A circuit inside a circuit.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Part {
-    /// Its name: its scope in the waves.
+    /// Name, equal to its scope in the waves.
     pub name: String,
-    /// The circuit that it is, by the name that the circuit has in the catalogue.
+    /// Name of its circuit in the catalogue.
     pub circuit: String,
-    /// Numbers in which it may differ from other parts of the same circuit, those of the parts
-    /// inside it by their paths.
+    /// Numbers that may differ between parts of the same circuit; those of inner parts by path.
     pub parameters: Vec<(String, u64)>,
-    /// Its ports in.
+    /// Input ports with their drivers.
     pub inputs: Vec<Connection>,
-    /// Its ports out, with their widths.
+    /// Output ports with their shapes.
     pub outputs: Vec<(String, Shape)>,
 }
 
@@ -46,7 +45,7 @@ pub struct Connection {
     pub name: String,
     /// Kind and width.
     pub shape: Shape,
-    /// Driver of the port.
+    /// Expression that drives the signal.
     pub driver: String,
 }
 
@@ -142,7 +141,7 @@ fn part(
     }
 }
 
-/// The circuit of a module: several of one circuit are told apart by a number behind its name.
+/// Returns the circuit of a module; modules of one circuit differ by a number after its name.
 fn circuit<'m>(modules: &'m [Module], module: &'m Module) -> &'m str {
     let first = modules.iter().find(|first| {
         let number = module.name.strip_prefix(&first.name);
@@ -152,7 +151,7 @@ fn circuit<'m>(modules: &'m [Module], module: &'m Module) -> &'m str {
     &first.unwrap_or(module).name
 }
 
-/// Names as they are in the waves, where dots stand between scopes, by what they are in a module.
+/// Names in the waves, with dots between scopes, by their names in a module.
 struct Paths(HashMap<String, String>);
 
 impl Paths {

@@ -18,7 +18,7 @@ impl Expressions<'_> {
             }
             None => self.narrow(of, shape.width),
         };
-        // A part of a word is unsigned; what was computed in this width is what it was before.
+        // A part of a word is unsigned; an expression computed in this width keeps its kind.
         match (shape.kind, self.names.get(of)) {
             (Kind::Signed, Some(_)) => Text::atom(format!("$signed({})", text.0)),
             (Kind::Signed, None) => text,
@@ -29,7 +29,7 @@ impl Expressions<'_> {
         }
     }
 
-    /// The low bits of a node without a name: what it computes, in fewer bits.
+    /// Returns the low bits of a node without a name by computing it in fewer bits.
     fn narrow(&self, id: Id, width: usize) -> Text {
         let (node, shape) = self.module.nodes[id];
         let small = Shape { width, ..shape };

@@ -20,7 +20,7 @@ pub struct ArmRows {
 /// A joint along the path.
 #[derive(Debug, Serialize)]
 pub struct JointRow {
-    /// Which.
+    /// Name of the joint.
     pub joint: &'static str,
     /// Least and largest angle.
     pub range_deg: [f64; 2],
@@ -50,7 +50,7 @@ pub fn rows(job: &Job) -> Option<ArmRows> {
 }
 
 impl ArmRows {
-    /// For people.
+    /// Writes the rows as text.
     pub fn write(&self, text: &mut String) -> fmt::Result {
         let heads = [
             ("joint   ", 0),

@@ -57,7 +57,6 @@ pub struct ArcFigures {
 /// A sample as the picture shows it.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown {
-    /// Measures.
     pub measured: SampleMeasured,
     /// Radius error in mm, outwards positive; NaN where the segment is no arc.
     radius_error: f64,
@@ -81,7 +80,6 @@ impl Shown {
 /// A blend into an arc with as much of the arc.
 #[derive(Debug)]
 pub struct Blended {
-    /// The arc.
     pub arc: ArcFigures,
     samples: RangeInclusive<u64>,
     /// Points in mm.

@@ -24,8 +24,8 @@ pub struct Row {
     pub rest_um: Option<f64>,
 }
 
-/// The path on the arc generator, and its arcs by the conventional method with and without ramps:
-/// each from rest to rest, the worst of them, where they are compared; nothing where there are none.
+/// Returns the path on the arc generator and, in a comparison, the worst of its arcs by the
+/// conventional method with and without ramps, each from rest to rest. Empty without arcs.
 pub fn rows(job: &Job, figures: &Figures) -> Vec<Row> {
     let compared = job.loaded.scenario.beside();
     if figures.arcs.is_empty() || compared && figures.beside.arcs.is_empty() {
@@ -76,7 +76,7 @@ impl Jolt {
     }
 }
 
-/// Measures a [`Jolt`] from commands as they come.
+/// Measures a [`Jolt`] on successive commands.
 #[derive(Debug)]
 pub struct Jolting {
     sample_s: f64,
@@ -113,7 +113,7 @@ impl Jolting {
     }
 }
 
-/// For people.
+/// Writes the rows as text.
 pub fn write(rows: &[Row], text: &mut String) -> fmt::Result {
     if rows.is_empty() {
         return Ok(());

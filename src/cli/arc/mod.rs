@@ -67,7 +67,6 @@ const OVERVIEW: [&str; 23] = [
     "arm.elbow",
 ];
 
-/// Runs a path.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let ((played, mut figures), mut files) = simulate(arguments, job, &options)?;
@@ -121,7 +120,6 @@ fn simulate(
     )
 }
 
-/// Plays the path.
 fn play(
     job: &Job,
     circuit: &ArcGenerator,

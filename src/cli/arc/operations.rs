@@ -25,13 +25,10 @@ const PRODUCT_TICKS: u64 = BlendPoint {
 /// Operations of a sample.
 #[derive(Debug, Serialize)]
 pub struct Row {
-    /// By what.
     pub method: &'static str,
-    /// Products.
     pub multiplications: u64,
     /// Sums, differences and comparisons.
     pub additions: u64,
-    /// Sines and cosines.
     pub sines_and_cosines: u64,
     /// Ticks that the circuit takes.
     pub ticks: Option<u64>,

@@ -26,7 +26,7 @@ pub struct Products {
     pub differences: Option<Row>,
 }
 
-/// Commands as they come, beside those of difference engines, which are what the circuit makes.
+/// Comparison of successive commands with those of difference engines, which the circuit makes.
 pub struct Differing<'j> {
     others: Box<dyn Iterator<Item = [i64; COORDINATES]> + 'j>,
     row: Row,
@@ -61,7 +61,7 @@ impl<'j> Differing<'j> {
     }
 }
 
-/// Blends by products beside those by differences; nothing where the run is one by differences.
+/// Compares blends by products with those by differences; `None` for a run by differences.
 pub fn products(job: &Job, figures: &Figures) -> Option<Products> {
     (job.settings.blend == Blend::Products).then(|| Products {
         difference_samples_most: Blend::Differences.most_samples(&Widths::FULL),

@@ -13,13 +13,12 @@ use serde::Serialize;
 /// A figure that was measured, and what the closed form says.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Pair {
-    /// On the commands.
+    /// Measured on the commands.
     pub measured: f64,
     /// By the closed form.
     pub expected: f64,
 }
 
-/// One arc.
 #[derive(Debug, Clone, Serialize)]
 pub struct ArcRow {
     /// Its piece, from 0.
@@ -79,14 +78,12 @@ pub struct EndRow {
     pub off_arc_estimate_um: Option<f64>,
 }
 
-/// One line.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct LineRow {
     /// Its piece, from 0.
     pub piece: usize,
     /// Line of the input.
     pub line: Option<usize>,
-    /// Length.
     pub length_mm: f64,
     /// Samples between its blends.
     pub samples: u64,
@@ -96,7 +93,6 @@ pub struct LineRow {
     pub speed_mm_per_s: f64,
 }
 
-/// One blend.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct BlendRow {
     /// Its piece; of a joint the former.

@@ -71,7 +71,7 @@ fn ending(played: &Played, focus: Focus) -> Ending {
     }
 }
 
-/// The tick of one sample of those that come.
+/// Finds the tick of one sample in a run.
 struct TickOf {
     sample: u64,
     next: u64,

@@ -43,7 +43,7 @@ pub struct Arguments {
     json: bool,
 }
 
-/// The circuits of these names, each once; without any, all that there are.
+/// Returns the circuits with these names, each once; all circuits if there are no names.
 pub fn entries(names: &[String]) -> Result<Vec<&'static Entry>, Failure> {
     let mut entries: Vec<&Entry> = Vec::new();
     for name in names {

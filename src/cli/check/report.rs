@@ -33,7 +33,6 @@ pub enum Kind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ended {
-    /// Everything holds.
     Holds,
     /// A counterexample or a failing case exists.
     Broken,
@@ -144,8 +143,8 @@ impl Report {
         table
     }
 
-    /// A failure where something does not hold, and another where it is left undecided: that is a
-    /// matter of the arguments.
+    /// Fails if something does not hold, and with another error if the arguments leave something
+    /// undecided.
     pub fn faults(&self) -> Result<(), Failure> {
         let mut faults: Vec<_> = self
             .rows

@@ -29,7 +29,7 @@ pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
     if asked.circuits.is_empty() && !asked.changes.is_empty() {
         return Err(chosen::no_circuit(&asked.changes, "check"));
     }
-    // Once is enough; and the rows of parts are told apart by their circuit.
+    // Each circuit comes once: the rows of parts are matched by circuit.
     for entry in entries(&asked.circuits)? {
         let kinds = [(entry.proved, Kind::Proof), (entry.swept, Kind::Sweep)];
         let kinds = kinds.into_iter().filter(|(has, _)| *has);
@@ -71,7 +71,7 @@ pub fn allowed_cases() -> String {
     format!("smaller widths, for {MOST_CASES} cases at most")
 }
 
-/// Checks that a task can be made; a law that is too wide is wrong where it is `alone`.
+/// Checks that a task can be made; a law that is too wide is an error only if it is `alone`.
 fn made(task: &Task, alone: bool) -> Result<(), Failure> {
     let refused = |error| chosen::refused(task.entry, error);
     match task.kind {

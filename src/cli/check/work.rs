@@ -205,7 +205,8 @@ fn sweep(
     })
 }
 
-/// The counterexample is what is asked for: it is told, too, where its waves cannot be written.
+/// Returns the row of a broken property. The counterexample is reported even if its waves cannot be
+/// written.
 fn broken(row: Row, report: &str, waves: Result<Vec<PathBuf>, RunError>) -> Row {
     let waves = match waves {
         Ok(paths) => {

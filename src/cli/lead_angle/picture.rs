@@ -83,7 +83,7 @@ fn timed_out(run: &Played, half: f64) -> Vec<(f64, f64)> {
     .collect()
 }
 
-/// The stop errors of learning by what a code is worth, in which it is to end within one.
+/// Panel of the stop errors of learning in units of a code's travel; they should end within one.
 fn errors_in_codes(job: &Job, learning: &Played) -> Panel {
     let title = format!(
         "{} of learning, held at ±{CODES_SHOWN}",

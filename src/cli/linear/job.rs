@@ -16,14 +16,11 @@ use motion_rtl::settings::tidy;
 pub struct Job {
     /// Stem of the names of its files.
     pub stem: String,
-    /// The input.
     pub drawing: Drawing,
     /// Its settings.
     pub settings: Settings,
-    /// The cycles.
     pub compiled: Targets,
-    /// Cycles with another axis as the master, or why they cannot be had; none where nothing is
-    /// compared.
+    /// Cycles with another master axis, or their compile error; `None` without a comparison.
     pub other: Option<Other>,
     /// The scenario it came from.
     pub loaded: Loaded,
@@ -34,7 +31,6 @@ pub struct Job {
 pub struct Other {
     /// Its settings.
     pub settings: Settings,
-    /// Its cycles.
     pub compiled: Result<Targets, TargetError>,
 }
 

@@ -67,13 +67,12 @@ const CONVENTIONAL_OVERVIEW: [&str; 11] = [
     "reference_y",
 ];
 
-/// Runs a job.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let circuit = plotter(&job.settings);
     let model = model_beside(&circuit, &Axes).map_err(RunError::from)?;
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
-    // Before the others run, as what it refuses would wait for them.
+    // Traces begin before the other runs, so that an error in their options is reported at once.
     let traces = Traces::begin((&model, &circuit), arguments, scenario, &options, ticks)?;
     let runs = if job.other.is_some() { 4 } else { 1 };
     progress::run(
@@ -103,7 +102,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     conclude(arguments, &options, files, summary)
 }
 
-/// Plays the job with its waves, and what it is compared with beside it.
+/// Plays the job with its waves, and in parallel the systems that it is compared with.
 fn compared(
     shown: (&Controller, &Model),
     job: &Job,

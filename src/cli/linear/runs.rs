@@ -9,7 +9,7 @@ use motion_rtl::jobs::linear_interpolator::measure::{
 /// The systems that play a job.
 #[derive(Debug)]
 pub struct Runs {
-    /// The linear interpolator.
+    /// Run of the linear interpolator.
     pub interpolator: Run,
     /// Run with another master axis, if the job allows one.
     pub other: Option<Run>,
@@ -37,9 +37,7 @@ pub struct Run {
 /// A scan as the picture shows it.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown {
-    /// The scan.
     pub record: ScanRecord,
-    /// Its cycle.
     pub cycle: Option<usize>,
     /// Contour error of the motors, in mm, to the left of the line positive.
     pub contour_mm: f64,

@@ -30,8 +30,8 @@ use summary::Summary;
 /// About how long a tick takes, with all motors.
 const TICK_S: f64 = 150e-9;
 
-/// Sampling times that the save file's window shows, and those of them before the first signal
-/// that stops the pen lift.
+/// Sampling times in the save file's window, and the count of these before the first signal that
+/// stops the pen lift.
 const SAMPLES_SHOWN: u64 = 300;
 const SAMPLES_BEFORE: u64 = 20;
 
@@ -67,7 +67,6 @@ const OVERVIEW: [&str; 28] = [
     "plant.lift.position",
 ];
 
-/// Runs a job.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let (run, mut files) = simulate(arguments, job, &options)?;

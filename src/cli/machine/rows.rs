@@ -47,9 +47,7 @@ pub struct PieceRow {
 /// Point at which a machine is farthest from a piece.
 #[derive(Debug, Serialize)]
 pub struct FarthestRow {
-    /// The distance.
     pub um: f64,
-    /// The tick.
     pub tick: u64,
     /// Main cause of the distance; `None` if the machine is on the path.
     pub reason: Option<&'static str>,
@@ -69,7 +67,6 @@ impl From<Farthest> for FarthestRow {
     }
 }
 
-/// Every piece.
 pub fn pieces(job: &Job, measured: &Measured) -> Vec<PieceRow> {
     let rows = measured.pieces.iter().filter_map(|one| row(job, one));
     rows.collect()
@@ -119,7 +116,7 @@ pub struct EndRow {
     pub position: [i64; 2],
     /// The position nearest to the job's end.
     pub wanted: [i64; 2],
-    /// Steps or counts.
+    /// "steps" or "counts".
     pub unit: &'static str,
 }
 

@@ -7,18 +7,16 @@ use motion_rtl::jobs::machine::measure::{Beside, Measured, Measuring, Shown};
 use motion_rtl::plan::Plan;
 use std::collections::BTreeMap;
 
-/// A run with its measures and what its picture shows.
+/// A run with its measures and the records of its picture.
 #[derive(Debug)]
 pub struct Run {
     /// Outcome of the run, without its records.
     pub played: Played,
-    /// Its measures.
     pub measured: Measured,
     /// The steppers at the ends of unit times.
     pub steppers: Points,
     /// The loads at sampling times of moves.
     pub loads: Points,
-    /// The pen lift.
     pub lift: Lift,
 }
 
@@ -34,7 +32,6 @@ pub struct Lift {
     pub marks: BTreeMap<u64, i64>,
     /// Ticks whose positions the next sampling time gives.
     pending: Vec<u64>,
-    /// The last position.
     pub last: i64,
 }
 

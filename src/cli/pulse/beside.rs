@@ -33,7 +33,7 @@ pub struct Row {
     pub timing_kept: bool,
     /// Adders, subtractors and comparators.
     pub adders: u64,
-    /// Bits of them.
+    /// Bits of the adders, subtractors and comparators.
     pub adder_bits: u64,
     /// Bits of registers.
     pub flip_flops: u64,

@@ -64,7 +64,6 @@ const OVERVIEW: [&str; 19] = [
     "plant.z.ahead",
 ];
 
-/// Runs a job.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     has_no_segments(arguments)?;
     let options = options(arguments, job.vcd_ticks)?;
@@ -150,7 +149,7 @@ fn simulate(
     )
 }
 
-/// Plays a table with motors, if there are some.
+/// Plays a table, with motors if there are any.
 fn play_on(
     group: &Group,
     table: &Table,

@@ -121,7 +121,7 @@ struct Pair {
 }
 
 impl Pair {
-    /// None yet; there will be about so many points.
+    /// Starts without points, with room for about `count`.
     fn expecting(count: usize) -> Self {
         let strokes = || Strokes {
             points: Points::expecting(count),
@@ -138,7 +138,7 @@ impl Pair {
         (self.drawn.points, self.rapid.points)
     }
 
-    /// The strokes of one kind, which go on at `at`; the other kind is interrupted.
+    /// Returns the strokes of one kind, continued at `at`, and interrupts the other kind.
     fn of(&mut self, rapid: bool, at: (f64, f64)) -> &mut Strokes {
         let (to, other) = match rapid {
             true => (&mut self.rapid, &mut self.drawn),
@@ -155,7 +155,7 @@ impl Pair {
     }
 }
 
-/// The moves that draw and those that do not.
+/// Returns the points of the drawing's drawing moves and rapid moves.
 fn commanded(job: &Job) -> (Points, Points) {
     let points = job.drawing.moves.iter().map(|step| match step.course {
         Course::Line => 1,

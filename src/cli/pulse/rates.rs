@@ -1,4 +1,4 @@
-//! Step rates of each axis in the summary, and what its motor made of them.
+//! Step rates of each axis in the summary, and the result on its motor.
 
 use super::by_axis::ByAxis;
 use crate::cli::rows::{fixed, or_dash, table};
@@ -15,17 +15,16 @@ pub type Rows = ByAxis<Row>;
 /// Step rates of an axis.
 #[derive(Debug, Serialize)]
 pub struct Row {
-    /// The largest.
+    /// Largest step rate.
     pub largest_per_s: f64,
-    /// The largest change from one unit time to the next.
+    /// Largest change from one unit time to the next.
     pub change_per_s: f64,
-    /// The unit time that begins with it, from 0.
+    /// Index of the unit time that begins with that change.
     pub change_unit: usize,
     /// The motor, if there is one.
     pub motor: Option<MotorRow>,
 }
 
-/// A step motor.
 #[derive(Debug, Serialize)]
 pub struct MotorRow {
     /// Largest distance between rotor and field, in full steps.
@@ -76,7 +75,7 @@ pub fn complaints(rows: &Rows) -> impl Iterator<Item = String> {
     })
 }
 
-/// For people.
+/// Writes the rows as text.
 pub fn write(rows: &Rows, text: &mut String) -> fmt::Result {
     let heads = [
         ("axis", 4),

@@ -56,7 +56,7 @@ pub fn systems(job: &Job) -> Vec<System<'_>> {
     ]
 }
 
-/// A circuit with its motors, if there are some.
+/// A circuit, with its motors if there are any.
 fn shown<C: Circuit>(circuit: &C, axes: usize, motors: Option<&Motors>) -> Result<Model, RunError> {
     Ok(match motors {
         None => model(circuit),

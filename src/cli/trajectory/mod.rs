@@ -70,7 +70,6 @@ const CORRECTIONS: [Correction; 4] = [
     Correction::Vector,
 ];
 
-/// Runs a path.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let (runs, mut files) = all(arguments, job, &options)?;
@@ -87,7 +86,7 @@ fn all(arguments: &Arguments, job: &Job, options: &Options) -> Result<(Runs, Fil
     let circuit = controller(job.axes(), traced, job.settings.rounding);
     let model = model_beside(&circuit, &Machine { axes: job.axes() }).map_err(RunError::from)?;
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
-    // Before the others run, as what it refuses would wait for them.
+    // Traces begin before the other runs, so that an error in their options is reported at once.
     let traces = Traces::begin((&model, &circuit), arguments, scenario, options, ticks)?;
     let runs = match (job.loaded.scenario.beside(), &job.full_feed) {
         (false, _) => 1,

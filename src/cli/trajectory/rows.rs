@@ -17,7 +17,6 @@ pub struct CorrectionRow {
     /// Name of the run.
     #[serde(skip)]
     pub name: &'static str,
-    /// The correction.
     pub correction: &'static str,
     /// True at full feed, beside runs that a contour tolerance limits.
     pub full_feed: bool,
@@ -35,7 +34,6 @@ pub struct CorrectionRow {
     pub motor: ErrorRow,
     /// Errors of the loads.
     pub load: ErrorRow,
-    /// Each axis.
     pub axes: Vec<AxisRow>,
     /// Errors on a circle, if the path has one that is long enough.
     pub circle: Option<CircleRow>,
@@ -65,7 +63,6 @@ pub struct AxisRow {
     pub axis: &'static str,
     /// End position of its motor, in counts from the path's start.
     pub end_position: i64,
-    /// Largest torque.
     pub torque_max_nm: f64,
     /// Periods in which the torque was limited.
     pub saturated_periods: usize,
@@ -103,7 +100,6 @@ pub struct SegmentRow {
     pub line: Option<usize>,
     /// "line", "arc", "helix", "spline" or "rapid".
     pub kind: &'static str,
-    /// Length.
     pub length_mm: f64,
     /// Radius of curvature of an arc or a helix; of a spline the least.
     pub radius_mm: Option<f64>,
@@ -122,7 +118,7 @@ pub struct SegmentRow {
     pub contour_um: Vec<Option<f64>>,
 }
 
-/// By each correction.
+/// Returns the figures of each correction.
 pub fn corrections(job: &Job, runs: &Runs) -> Vec<CorrectionRow> {
     let row = |run: &Run| CorrectionRow {
         name: run.name(),
@@ -182,7 +178,6 @@ fn circle_row(correction: Correction, circle: &Steady) -> CircleRow {
     }
 }
 
-/// Every segment.
 pub fn segments(job: &Job, runs: &Runs) -> Vec<SegmentRow> {
     let (path, motion) = (&job.program.path, &job.program.motion);
     let unit = motion.units_per_mm;

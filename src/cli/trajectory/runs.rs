@@ -38,7 +38,6 @@ impl Runs {
 /// The run by one correction.
 #[derive(Debug)]
 pub struct Run {
-    /// The correction.
     pub correction: Correction,
     /// True at full feed, beside runs that a contour tolerance slows down.
     pub full_feed: bool,

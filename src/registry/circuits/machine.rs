@@ -1,4 +1,4 @@
-//! The machine of all circuits, and what it has besides them.
+//! The machine of all circuits, and its further blocks.
 
 use crate::circuits::lead_angle::Memory;
 use crate::circuits::machine::{CommandJoin, Enables, Machine};

@@ -47,7 +47,7 @@ fn conventional(width: usize) -> Conventional {
     }
 }
 
-/// The conventional device as it is built.
+/// Returns the conventional device in full.
 fn full_conventional() -> Conventional {
     Conventional {
         period: 1000,
