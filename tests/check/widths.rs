@@ -102,7 +102,9 @@ fn every_variant_is_made() {
 #[test]
 #[ignore = "takes long"]
 fn every_circuit_is_elaborated_at_every_width() {
-    none(CATALOGUE.par_iter().flat_map_iter(|entry| {
+    // The machine has no small value; its circuits are made one by one.
+    let entries = CATALOGUE.par_iter().filter(|entry| entry.name != "machine");
+    none(entries.flat_map_iter(|entry| {
         (0..=64).filter_map(move |bits| {
             let ways = scaled::pairs(entry, bits).into_iter();
             let ends = ways.map(|pairs| made(entry, Base::Small, &pairs));

@@ -164,6 +164,10 @@ fn every_circuit_is_made_at_its_widths() {
         let full = entry.full();
         assert_eq!((full.name(), full.about()), (name, entry.about));
         full.layout().expect(name);
+        // The machine's circuits are made one by one.
+        if name == "machine" {
+            continue;
+        }
         let made = |bits| scaled::model(entry, bits);
         assert!(
             made(8).is_some() && (made(3).is_some() || made(4).is_some()),

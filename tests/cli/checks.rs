@@ -197,9 +197,9 @@ fn what_cannot_be_proved_is_refused() {
     );
     // The former spelling says the one that counts.
     bench.refuse(
-        &["check", "compensator", "--with", "0", "0", "0", "3"],
-        "--with: takes no numbers; allowed: values by their keys, --set variant.comparing=crossing; \
-         see `list compensator`",
+        &["check", "comparator", "--with", "0", "1"],
+        "--with: takes no numbers; allowed: values by their keys, --set comparing=crossing; see \
+         `list comparator`",
     );
     for arguments in [["check", "--width", "wide"], ["check", "--limit", "-1"]] {
         assert_eq!(bench.run(&arguments).code, 2);

@@ -213,6 +213,8 @@ pub const NEVER: &[(&str, u32)] = &[
     ("position_loop.control.product", 15),
     ("position_loop.control.amount", 7),
     // As above; 18 bits are divided in 18 ticks, and Ta·Td has two bits less than the word for it.
+    ("trapezoid.level", 12),
+    ("trapezoid.next_level", 12),
     ("trapezoid.multiplicand", 10),
     ("trapezoid.excess", 10),
     ("trapezoid.times", 5),
@@ -292,7 +294,7 @@ pub const NEVER: &[(&str, u32)] = &[
     ("difference_engine.d4.by_part", 0),
     // As above.
     ("circular_interpolator.wide_radius", 15),
-    ("blend_row.term_bend", 9),
+    ("blend_row.term_bend", 7),
     // Coefficients of 8 bits.
     ("coefficient_control.bit_index", 4),
     ("rotation.control.bit_index", 4),
@@ -301,7 +303,7 @@ pub const NEVER: &[(&str, u32)] = &[
     ("model_state.motion", 0),
     ("arc_angle.factor", 0),
     ("arc_angle.product", 12),
-    ("length_powers.product", 9),
+    ("length_powers.product", 7),
     ("cordic_state.iteration", 3),
     ("cordic_state.turn", 6),
     ("point_sequencer.ahead", 0),
