@@ -157,9 +157,11 @@
 //! let directory = tempfile::tempdir()?;
 //! let at = |name: &str| directory.path().join(name);
 //! let run = Drive { seed: 1, ticks: 1000, resets: true, clock: Clock::default() };
-//! let mut stimulus = File::create(at("unit_law.stimulus"))?;
+//! let waves = File::create(at("golden.vcd"))?;
+//! let stimulus = File::create(at("unit_law.stimulus"))?;
+//! let expected = File::create(at("unit_law.expected"))?;
 //! let circuit = UnitLaw { width: 8, variant: Variant::Safe };
-//! drive(&circuit, &run, &mut File::create(at("golden.vcd"))?, &mut stimulus)?;
+//! drive(&circuit, &run, waves, stimulus, expected)?;
 //!
 //! // In place of your simulator.
 //! std::fs::copy(at("golden.vcd"), at("tb.vcd"))?;

@@ -2,7 +2,7 @@ use super::records::Records;
 use super::{Coverage, Stimulus};
 use crate::engine::Watch;
 use crate::hdl::{Described, LeafView as View, Model, RunError};
-use crate::trace::{Clock, Dump, Layout, Lines, Options, VcdFile};
+use crate::trace::{Clock, Dump, Layout, Lines, Options, OutputFile, VcdFile};
 use std::io::{self, Write};
 
 /// Length and inputs of a random run.
@@ -27,10 +27,10 @@ pub struct Driven {
     pub coverage: Coverage,
 }
 
-/// Drives a circuit from power-on with random inputs. Writes all its signals as waves, and its
-/// inputs as a [`StimulusFile`](crate::trace::StimulusFile). With both, another implementation of
-/// the circuit can be compared with this one, tick by tick. The same [`Drive`] gives the same
-/// bytes.
+/// Drives a circuit from power-on with random inputs. Writes all its signals as waves, its inputs
+/// as a [`StimulusFile`](crate::trace::StimulusFile), and its ports out as an
+/// [`OutputFile`](crate::trace::OutputFile). With these, another implementation of the circuit can
+/// be compared with this one, tick by tick. The same [`Drive`] gives the same bytes.
 ///
 /// Records, targets and steps are written whole and started, alternating with ticks in which every
 /// port of a [`Stimulus`] is random. [`Coverage::still`] names the signals that never changed.
@@ -43,8 +43,10 @@ pub fn drive(
     drive: &Drive,
     mut waves: impl Write,
     mut stimulus: impl Write,
+    mut expected: impl Write,
 ) -> Result<Driven, RunError> {
-    drive.run(&circuit.described()?, &mut waves, &mut stimulus)
+    let model = circuit.described()?;
+    drive.run(&model, &mut waves, &mut stimulus, &mut expected)
 }
 
 impl Drive {
@@ -57,6 +59,7 @@ impl Drive {
         model: &Model,
         waves: &mut dyn Write,
         stimulus: &mut dyn Write,
+        expected: &mut dyn Write,
     ) -> Result<Driven, RunError> {
         let leaves = model.declarations().leaves.clone();
         let layout = Layout::new(model.name(), leaves, None).map_err(io::Error::from)?;
@@ -64,6 +67,7 @@ impl Drive {
         let mut dump = Dump::new(&layout, self.clock, &Options::default(), file);
         let widths = model.flat().inputs.iter().map(|&width| width.into());
         let mut lines = Lines::new(widths.collect());
+        let mut outputs = OutputFile::of(expected, model);
         let mut coverage = Coverage::of(model.declarations());
         let mut engine = model.engine(Watch::All);
         let mut random = Stimulus::new(self.seed);
@@ -78,6 +82,7 @@ impl Drive {
             }
             engine.settle();
             lines.tick(&engine, rst, stimulus)?;
+            outputs.tick(View::of(&engine))?;
             dump.tick(tick, View::of(&engine))?;
             coverage.tick(tick, View::of(&engine));
             match rst {
@@ -90,6 +95,7 @@ impl Drive {
         }
         dump.finish()?;
         lines.finish(stimulus)?;
+        outputs.finish()?;
         Ok(Driven { resets, coverage })
     }
 }

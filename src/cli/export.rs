@@ -1,6 +1,7 @@
 //! A circuit's modules among those of others in one directory.
 
 use super::Failure;
+use motion_rtl::trace::Clock;
 use motion_rtl::verilog::{SourceFile, Verilog};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -21,13 +22,13 @@ pub struct Export {
 }
 
 impl Export {
-    /// The files of a circuit; with a testbench, if one is wanted.
-    pub fn new(verilog: &Verilog, testbench: bool, name: String) -> Self {
+    /// The files of a circuit; with a testbench for waves of this clock, if one is wanted.
+    pub fn new(verilog: &Verilog, testbench: Option<Clock>, name: String) -> Self {
         let mut sources = verilog.sources();
         let top = verilog.design().modules.last();
         let top = top.map_or("", |module| module.name.as_str());
         let mut list = format!("{MADE}{name}\n");
-        let bench = verilog.testbench().filter(|_| testbench);
+        let bench = testbench.and_then(|clock| verilog.testbench(clock));
         for source in sources.iter().chain(&bench) {
             let module = source.name.ends_with(".v") && Some(source) != bench.as_ref();
             list += if module { "" } else { "// " };

@@ -11,7 +11,9 @@ use clap::ValueEnum;
 use motion_rtl::files::AtomicFile;
 use motion_rtl::hdl::{Circuit, Described, Model, Observer, RunError, Without};
 use motion_rtl::scenario::Loaded;
-use motion_rtl::trace::{Clock, LayoutError, Options, StimulusFile, WaveFile, WaveFormat, gtkw};
+use motion_rtl::trace::{
+    Clock, LayoutError, Options, OutputFile, StimulusFile, WaveFile, WaveFormat, gtkw,
+};
 use motion_rtl::verilog::Verilog;
 use std::io;
 use std::ops::Range;
@@ -30,6 +32,8 @@ pub struct Traces<'a> {
     pub waves: Option<WaveFile>,
     /// The inputs.
     pub stimulus: Option<StimulusFile<AtomicFile>>,
+    /// The outputs.
+    outputs: Option<OutputFile<AtomicFile>>,
     /// The inputs once more, for the plan.
     pub noted: Option<Noted>,
     // Last, as their directory can go only when the files above are gone.
@@ -99,9 +103,9 @@ impl<'a> Traces<'a> {
                 Some(waves.map_err(refused)?)
             }
         };
-        let stimulus = match arguments.verilog {
-            true => Some(verilog(printed, stem, &mut files)?),
-            false => None,
+        let (stimulus, outputs) = match arguments.verilog {
+            true => Some(verilog(printed, clock, stem, &mut files)?).unzip(),
+            false => (None, None),
         };
         Ok(Traces {
             stem,
@@ -111,6 +115,7 @@ impl<'a> Traces<'a> {
             files,
             waves,
             stimulus,
+            outputs,
             noted: arguments.plan.then(Noted::default),
         })
     }
@@ -130,9 +135,10 @@ impl<'a> Traces<'a> {
     ) -> Result<(T, Files), Failure> {
         let mut progress = Part::default();
         let stimulus = self.stimulus.as_mut().map(Without);
+        let outputs = self.outputs.as_mut().map(Without);
         let played = play(&mut (
             self.waves.as_mut(),
-            stimulus,
+            (stimulus, outputs),
             self.noted.as_mut(),
             &mut progress,
         ))?;
@@ -152,6 +158,9 @@ impl<'a> Traces<'a> {
         no_such_tick(self.options, ticks)?;
         if let Some(stimulus) = self.stimulus {
             self.files.push(stimulus.finish()?);
+        }
+        if let Some(outputs) = self.outputs {
+            self.files.push(outputs.finish()?);
         }
         if let Some(Noted(inputs)) = self.noted {
             self.files.write("plan.txt", &of_job(circuit, &inputs)?)?;
@@ -177,17 +186,22 @@ impl<'a> Traces<'a> {
     }
 }
 
-/// The circuit's Verilog and its testbench; returns what writes the stimulus.
+/// The circuit's Verilog and its testbench; returns what writes the stimulus and what is expected.
 fn verilog(
     circuit: &impl Described,
+    clock: Clock,
     stem: &str,
     files: &mut Files,
-) -> Result<StimulusFile<AtomicFile>, Failure> {
+) -> Result<(StimulusFile<AtomicFile>, OutputFile<AtomicFile>), Failure> {
     // Every circuit of the crate is printed by a test, so only a new one can fail here.
     let verilog = Verilog::of(circuit).map_err(|error| Failure::Check(error.to_string()))?;
-    files.export(Export::new(&verilog, true, format!("run {stem}")))?;
-    let stimulus = files.create_as(&format!("{}.stimulus", circuit.outlined().0))?;
-    Ok(StimulusFile::new(stimulus, circuit))
+    files.export(Export::new(&verilog, Some(clock), format!("run {stem}")))?;
+    let name = circuit.outlined().0;
+    let stimulus = files.create_as(&format!("{name}.stimulus"))?;
+    let expected = files.create_as(&format!("{name}.expected"))?;
+    let expected = OutputFile::new(expected, circuit);
+    let expected = expected.map_err(|error| Failure::Check(error.to_string()))?;
+    Ok((StimulusFile::new(stimulus, circuit), expected))
 }
 
 fn refused(error: io::Error) -> Failure {

@@ -20,8 +20,8 @@ pub struct Arguments {
     /// Where the files go.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Beside the circuit a testbench, a stimulus of so many ticks, the golden waves of it, and a list
-    /// of the signals that never changed in them.
+    /// Writes beside the circuit a testbench, a stimulus of this many ticks, the ports out that it
+    /// expects, the golden waves, and a list of the signals that never changed in them.
     #[arg(long, value_name = "TICKS", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(2..=100_000_000))]
     testbench: Option<u64>,
     /// Clock of the golden waves.
@@ -54,19 +54,23 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
     let mut files = Files::begin(&arguments.out, circuit.name())?;
     let mut text = String::new();
     let name = format!("verilog {}", arguments.chosen);
-    files.export(Export::new(&verilog, arguments.testbench.is_some(), name))?;
+    let clock = clock(arguments)?;
+    let bench = arguments.testbench.map(|_| clock);
+    files.export(Export::new(&verilog, bench, name))?;
     if let Some(ticks) = arguments.testbench {
         let drive = Drive {
             seed: arguments.seed,
             ticks,
             resets: true,
-            clock: clock(arguments)?,
+            clock,
         };
         let mut waves = files.create("vcd")?;
         let mut stimulus = files.create("stimulus")?;
-        let driven = circuit.drive(&drive, &mut waves, &mut stimulus)?;
-        files.push(waves);
-        files.push(stimulus);
+        let mut expected = files.create("expected")?;
+        let driven = circuit.drive(&drive, &mut waves, &mut stimulus, &mut expected)?;
+        for file in [waves, stimulus, expected] {
+            files.push(file);
+        }
         let (seen, bits) = driven.coverage.bits();
         let still: Vec<_> = driven.coverage.still().collect();
         let lines = still.iter().map(|signal| match signal.width {

@@ -1,7 +1,8 @@
 //! Paths of signals in different dumps.
 //!
 //! A path is scopes and a name with dots between them. An element of a memory is written `mem[5]`;
-//! `mem.word5` and `mem.stage5`, which this crate writes, mean the same.
+//! `mem.word5` and `mem.stage5`, which this crate writes, mean the same. So does
+//! `mem_words[5].word`, which its Verilog has for Icarus.
 
 /// Greatest number of names in a message.
 pub(super) const LISTED: usize = 20;
@@ -18,13 +19,21 @@ pub(super) fn element(path: &str) -> String {
     let Some((scope, name)) = path.rsplit_once('.') else {
         return path.to_owned();
     };
-    let number = name
-        .strip_prefix("word")
-        .or_else(|| name.strip_prefix("stage"));
     let digits = |number: &&str| {
         let plain = number.bytes().all(|byte| byte.is_ascii_digit()) && !number.is_empty();
         plain && (*number == "0" || !number.starts_with('0'))
     };
+    if name == "word"
+        && let Some((memory, number)) = scope.rsplit_once("_words[")
+        && number
+            .strip_suffix(']')
+            .is_some_and(|number| digits(&number))
+    {
+        return format!("{memory}[{number}");
+    }
+    let number = name
+        .strip_prefix("word")
+        .or_else(|| name.strip_prefix("stage"));
     match number.filter(digits) {
         Some(number) => format!("{scope}[{number}]"),
         None => path.to_owned(),
@@ -60,8 +69,12 @@ mod tests {
     fn elements_of_memories_have_one_form() {
         assert_eq!(element("a.mem.word15"), "a.mem[15]");
         assert_eq!(element("a.pipe.stage0"), "a.pipe[0]");
+        assert_eq!(element("a.mem_words[15].word"), "a.mem[15]");
         for same in [
             "word1",
+            "a.mem_words.word",
+            "a.mem_words[15].x.word",
+            "a.words[15].word",
             "a.word",
             "a.word01",
             "a.words1",

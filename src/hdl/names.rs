@@ -50,6 +50,11 @@ impl Builder {
                 all.push(of);
             }
         };
+        for signal in &self.signals {
+            if let Some(behind) = signal.behind() {
+                add(behind, format!("`{}`", signal.name));
+            }
+        }
         let own = self.signals.iter().filter(|own| own.owner.is_none());
         let parts = self.parts.iter().map(|part| &part.name);
         for name in own.map(|signal| &signal.name).chain(parts) {
@@ -115,12 +120,12 @@ impl Builder {
     fn hidden(&self, modules: &[Module]) -> impl Iterator<Item = (Site, String)> {
         self.instances.iter().filter_map(|instance| {
             let (name, inside) = (&instance.child.name, &modules[instance.child.module]);
-            let mut signals = inside.signals.iter().filter(|own| own.owner.is_none());
-            let mut memories = inside.memories.iter().filter(|memory| !memory.inner);
-            let hides = signals.any(|signal| signal.name == *name)
-                || memories
-                    .any(|memory| memory.name == *name || memory.loops().any(|made| made == *name));
-            hides.then(|| {
+            let signals = inside.signals.iter().filter(|own| own.owner.is_none());
+            let signals = signals.flat_map(|own| [Some(own.name.clone()), own.behind()]);
+            let memories = inside.memories.iter().filter(|memory| !memory.inner);
+            let memories = memories.flat_map(|memory| memory.loops().chain([memory.name.clone()]));
+            let mut hidden = signals.flatten().chain(memories);
+            hidden.any(|inner| inner == *name).then(|| {
                 let what = format!(
                     "part `{name}` has the name of a signal of `{}`, inside it",
                     inside.name

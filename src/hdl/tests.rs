@@ -200,6 +200,8 @@ signals! { for Made as _c;
         line: Shift(2, 4),
         /// A memory.
         store: Ram(2, 4),
+        /// A port out.
+        pub held: Bit,
     }
     /// The circuits inside.
     pub struct MadeParts {
@@ -212,8 +214,10 @@ signals! { for Made as _c;
         sum_next: U(4),
         /// Another such port.
         sum_sum: U(4),
-        /// Names of loops over words, and of a file.
-        loops: [Bit; 4] as Elements(&["line_shift", "line_to", "store_word", "STORE"]),
+        /// Names of loops over words, of their wires, of a file, and of a port's register.
+        loops: [Bit; 7] as Elements(&[
+            "line_shift", "line_to", "store_word", "STORE", "store_at", "line_words", "held_reg",
+        ]),
         /// Name of words that nobody declares.
         rom: U(4),
     }
@@ -230,11 +234,12 @@ impl Circuit for Made {
         let net = MadeNet {
             sum_next: counter.w.next,
             sum_sum: counter.w.next,
-            loops: vec![Bit::low(); 4],
+            loops: vec![Bit::low(); 7],
             rom: Image::from_fn(4, 4, |word| word as u64).rom(by),
         };
         let (line, store) = (q.line.shift(Bit::high(), by), q.store.keep());
-        (net, MadeReg { line, store })
+        let held = q.held;
+        (net, MadeReg { line, store, held })
     }
 }
 
@@ -405,12 +410,15 @@ fn what_verilog_makes_stands_once() {
         &expect![[r#"
         tests.rs:1:1: made: the name `AT` is used twice: Verilog makes it of `at` (4 bits) and of `at` (5 bits)
         tests.rs:1:1: made: the name `STORE` is used twice: Verilog makes it of `store`
+        tests.rs:1:1: made: the name `held_reg` is used twice: Verilog makes it of `held`
         tests.rs:1:1: made: the name `line_shift` is used twice: Verilog makes it of `line`
         tests.rs:1:1: made: the name `line_to` is used twice: Verilog makes it of `line`
+        tests.rs:1:1: made: the name `line_words` is used twice: Verilog makes it of `line`
         tests.rs:1:1: made: the name `rom` is used twice: Verilog makes it of a ROM
+        tests.rs:1:1: made: the name `store_at` is used twice: Verilog makes it of `store`
         tests.rs:1:1: made: the name `store_word` is used twice: Verilog makes it of `store`
         tests.rs:1:1: made: the name `sum_sum` is used twice: Verilog makes it of `sum.sum`
-        tests.rs:34:29: made: part `sum` has the name of a signal of `counter`, inside it
+        tests.rs:38:29: made: part `sum` has the name of a signal of `counter`, inside it
     "#]],
     );
 }

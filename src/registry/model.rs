@@ -93,8 +93,9 @@ impl dyn AnyModel + '_ {
         run: &Drive,
         waves: &mut dyn Write,
         stimulus: &mut dyn Write,
+        expected: &mut dyn Write,
     ) -> Result<Driven, RunError> {
-        run.run(&self.model()?, waves, stimulus)
+        run.run(&self.model()?, waves, stimulus, expected)
     }
 }
 

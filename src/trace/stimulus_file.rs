@@ -114,6 +114,15 @@ impl Lines {
         }
     }
 
+    /// Begins lines of ports of these widths, without the bit of a reset.
+    pub(crate) fn without_reset(widths: Vec<usize>) -> Self {
+        let bits = widths.iter().sum::<usize>();
+        Lines {
+            digits: bits.div_ceil(4),
+            ..Lines::new(widths)
+        }
+    }
+
     /// Checks the words of a tick.
     fn check(&self, words: &[u64]) -> Result<(), InputError> {
         let (words_given, ports) = (words.len(), self.widths.len());
@@ -131,6 +140,23 @@ impl Lines {
     /// Ends the line.
     fn end(&mut self, rst: bool, out: &mut dyn Write) -> io::Result<()> {
         self.word.push(rst.into(), 1);
+        self.print(out)
+    }
+
+    /// Writes a line without a reset.
+    pub(crate) fn line(
+        &mut self,
+        words: impl Iterator<Item = u64>,
+        out: &mut dyn Write,
+    ) -> io::Result<()> {
+        self.word.clear();
+        for (word, &width) in words.zip(&self.widths) {
+            self.word.push(word, width);
+        }
+        self.print(out)
+    }
+
+    fn print(&mut self, out: &mut dyn Write) -> io::Result<()> {
         let digits = (0..self.digits).rev().map(|place| self.word.digit(place));
         self.buffer.extend(digits);
         self.buffer.push(b'\n');

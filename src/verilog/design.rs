@@ -67,20 +67,6 @@ impl Modules<'_> {
                 .any(|child| self.clocked(&self.modules[child.module]))
     }
 
-    /// The memories of a module and of those inside it: path and number of words.
-    pub(super) fn memories_within(&self, module: &Module) -> Vec<(String, usize)> {
-        let own = module.memories.iter().filter(|memory| !memory.inner);
-        let mut memories: Vec<_> = own
-            .map(|memory| (memory.name.clone(), memory.words))
-            .collect();
-        for child in &module.instances {
-            for (path, words) in self.memories_within(&self.modules[child.module]) {
-                memories.push((format!("{}.{path}", child.name), words));
-            }
-        }
-        memories
-    }
-
     /// The parameters of a module: its own, and what it passes on to those inside it. The
     /// circuit itself passes numbers on as such.
     pub(super) fn parameters(&self, module: &Module) -> Vec<Parameter> {

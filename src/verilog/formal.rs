@@ -3,7 +3,7 @@
 use super::design::Modules;
 use super::expression::Expressions;
 use super::names::Names;
-use super::text::range;
+use super::text::{ascii, range};
 use crate::hdl::netlist::{Module, Node};
 use std::fmt::Write as _;
 
@@ -31,7 +31,8 @@ impl Modules<'_> {
         let _ = writeln!(text, "    always @(posedge clk) begin");
         for assertion in &module.assertions {
             let holds = expressions.definition(assertion.holds, 76, "                ");
-            let mut name = assertion.name.chars();
+            let name = ascii(assertion.name);
+            let mut name = name.chars();
             let first = name.next().map(|first| first.to_ascii_uppercase());
             let name: String = first.into_iter().chain(name).collect();
             let _ = writeln!(text, "        // {name}.");

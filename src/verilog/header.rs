@@ -1,14 +1,17 @@
-use super::conversion::literal;
 use super::design::Modules;
 use super::text::{annotated, column, comment, range};
 use crate::hdl::Role;
 use crate::hdl::netlist::{Module, Signal};
 use std::fmt::Write as _;
 
+/// Unit of time of modules, in which nothing happens: with it in all of them no simulator asks which
+/// one a testbench leaves to them.
+const TIMESCALE: &str = "`timescale 1ns / 1ps\n";
+
 impl Modules<'_> {
     /// Parameters and ports.
     pub(super) fn header(&self, module: &Module, clocked: bool) -> String {
-        let mut text = format!("module {} ", module.name);
+        let mut text = format!("{TIMESCALE}\nmodule {} ", module.name);
         let parameters = self.parameters(module);
         match parameters.is_empty() {
             true => text += "(\n",
@@ -37,11 +40,7 @@ impl Modules<'_> {
             let range = format!("{:column$}", range(*shape));
             let port = match signal.role {
                 Role::Input => format!("input  wire {range}{name}"),
-                Role::Net => format!("output wire {range}{name}"),
-                Role::Register => {
-                    let power_on = literal(signal.power_on, *shape);
-                    format!("output reg  {range}{name} = {power_on}")
-                }
+                Role::Net | Role::Register => format!("output wire {range}{name}"),
             };
             ports.push((port, comment(signal)));
         }

@@ -3,11 +3,11 @@ use super::design::unsigned;
 use super::expression::Expressions;
 use super::statements::guarded;
 use super::text::{Body, clean, range};
-use crate::hdl::netlist::{Module, Node, Port};
+use crate::hdl::netlist::{Memory, Module, Node, Port};
 
 /// Declarations and contents of memories.
 pub(super) fn memories(module: &Module, body: &mut Body) {
-    for memory in module.memories.iter().filter(|memory| !memory.inner) {
+    for (index, memory) in own(module) {
         let shape = unsigned(memory.width);
         body.comment(&clean(memory.doc));
         let last = memory.words - 1;
@@ -39,18 +39,42 @@ pub(super) fn memories(module: &Module, body: &mut Body) {
                 body.line(&format!("        {0}[{0}_word] = {zero};", memory.name));
             }
         }
+        if module.has_leaves(index) {
+            words(memory, body);
+        }
         body.space();
     }
 }
 
+/// The memories of a module itself, with their places among all.
+fn own(module: &Module) -> impl Iterator<Item = (usize, &Memory)> {
+    let memories = module.memories.iter().enumerate();
+    memories.filter(|(_, memory)| !memory.inner)
+}
+
+/// Declares the words as wires: vvp warns of each word of an array that it dumps.
+fn words(memory: &Memory, body: &mut Body) {
+    let Memory { name, words, .. } = memory;
+    let range = range(unsigned(memory.width));
+    body.raw("`ifdef __ICARUS__");
+    body.comment("Words as wires, for dumps.");
+    body.line("generate");
+    body.line(&format!("    genvar {name}_at;"));
+    body.line(&format!("    for ({name}_at = 0; {name}_at < {words};"));
+    body.line(&format!(
+        "        {name}_at = {name}_at + 1) begin : {name}_words"
+    ));
+    body.line(&format!(
+        "            wire {range}word = {name}[{name}_at];"
+    ));
+    body.line("    end");
+    body.line("endgenerate");
+    body.raw("`endif");
+}
+
 /// How memories are written at the rising edge.
 pub(super) fn write_memories(module: &Module, expressions: &Expressions<'_>, body: &mut Body) {
-    for (index, memory) in module
-        .memories
-        .iter()
-        .enumerate()
-        .filter(|(_, memory)| !memory.inner)
-    {
+    for (index, memory) in own(module) {
         if let Some((condition, write)) = expressions.port(index) {
             body.line("always @(posedge clk)");
             for line in guarded(condition, write, 1) {

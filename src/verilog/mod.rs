@@ -32,6 +32,7 @@ mod unused;
 use crate::engine::EngineError;
 use crate::hdl::Described;
 use crate::hdl::netlist::{Design, Value};
+use crate::trace::Clock;
 pub use connections::{Connection, Connections, Part};
 use design::Modules;
 use std::fmt::Write as _;
@@ -109,10 +110,12 @@ impl Verilog {
             .collect()
     }
 
-    /// A testbench that applies a stimulus of [`StimulusFile`](crate::trace::StimulusFile), which
-    /// it expects as `<circuit>.stimulus`, and dumps every signal to `<circuit>_tb.vcd`.
-    pub fn testbench(&self) -> Option<SourceFile> {
+    /// A testbench with the time scale of waves with this clock. Applies the
+    /// [`StimulusFile`](crate::trace::StimulusFile) `<circuit>.stimulus`, holds the ports out against
+    /// the [`OutputFile`](crate::trace::OutputFile) `<circuit>.expected`, and dumps every signal to
+    /// `<circuit>_tb.vcd`.
+    pub fn testbench(&self, clock: Clock) -> Option<SourceFile> {
         let top = self.design.modules.last()?;
-        Some(testbench::testbench(&self.modules(), top))
+        Some(testbench::testbench(&self.modules(), top, clock))
     }
 }

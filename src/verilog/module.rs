@@ -4,7 +4,7 @@ use super::expression::Expressions;
 use super::memories::{memories, write_memories};
 use super::names::Names;
 use super::statements::edge;
-use super::text::{Body, annotated, column, comment, range};
+use super::text::{Body, annotated, ascii, column, comment, range};
 use super::unused::unused;
 use crate::hdl::Role;
 use crate::hdl::netlist::{Module, Node, Signal};
@@ -20,27 +20,40 @@ impl Modules<'_> {
         let expressions = Expressions::new(module, &names);
         let clocked = self.clocked(module);
         let mut text = String::new();
-        let _ = writeln!(text, "// {}: {}.", module.name, module.about);
+        let _ = writeln!(text, "// {}: {}.", module.name, ascii(module.about));
         let _ = writeln!(text, "// Made by motion-rtl from the circuit of that name.");
         text.push('\n');
         text += &self.header(module, clocked);
 
         let mut body = Body::default();
         memories(module, &mut body);
-        let inner = module.signals.iter().filter(|signal| !signal.is_port());
-        let inner: Vec<&Signal> = inner.filter(|signal| is_own_register(signal)).collect();
+        let inner = module
+            .signals
+            .iter()
+            .filter(|signal| is_own_register(signal));
+        let inner: Vec<&Signal> = inner.collect();
         let column = column(inner.iter().map(|signal| signal.shape));
         let registers: Vec<(String, String)> = inner
             .iter()
             .map(|signal| {
                 let power_on = literal(signal.power_on, signal.shape);
                 let range = format!("{:column$}", range(signal.shape));
-                let line = format!("reg  {range}{} = {power_on};", signal.name);
-                (line, comment(signal))
+                // A port is described where it stands.
+                let comment = match signal.is_port() {
+                    true => String::new(),
+                    false => comment(signal),
+                };
+                (
+                    format!("reg  {range}{} = {power_on};", stored(signal)),
+                    comment,
+                )
             })
             .collect();
         for line in annotated(&registers) {
             body.line(&line);
+        }
+        for (signal, behind) in inner.iter().filter_map(|one| Some((one, one.behind()?))) {
+            body.line(&format!("assign {} = {behind};", signal.name));
         }
         body.space();
         let outputs = self.outputs(module, &names);
@@ -61,6 +74,11 @@ impl Modules<'_> {
 
 pub(super) fn is_own_register(signal: &Signal) -> bool {
     signal.role == Role::Register && signal.owner.is_none()
+}
+
+/// Name of a register: that of its port is a wire.
+pub(super) fn stored(signal: &Signal) -> String {
+    signal.behind().unwrap_or_else(|| signal.name.clone())
 }
 
 /// Nets and shared subexpressions, each after what it reads.

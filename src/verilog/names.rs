@@ -25,6 +25,9 @@ impl Names {
             };
             let own = match module.nodes[driver].0 {
                 Node::Constant(_) => false,
+                // A port out is assigned from what an instance drives: Icarus gives a net that is both
+                // an output and an instance's input two drivers in VHDL.
+                Node::Signal(_) | Node::Port { .. } if signal.is_port() => false,
                 Node::Signal(read) => module.signals[read].owner.is_some(),
                 Node::Port { .. } => true,
                 _ => !names.of.contains_key(&driver),
@@ -325,6 +328,7 @@ fn reserved(module: &Module, modules: &[Module]) -> impl Iterator<Item = String>
         .filter(|signal| signal.owner.is_none())
     {
         names.push(signal.name.clone());
+        names.extend(signal.behind());
     }
     for memory in &module.memories {
         names.push(memory.name.clone());

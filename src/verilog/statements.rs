@@ -1,6 +1,6 @@
 use super::conversion::literal;
 use super::expression::Expressions;
-use super::module::is_own_register;
+use super::module::{is_own_register, stored};
 use crate::hdl::netlist::{Id, Module, Node};
 
 /// What happens at a rising edge.
@@ -22,7 +22,10 @@ pub(super) fn edge(module: &Module, expressions: &Expressions<'_>, indent: usize
             continue;
         }
         let power_on = literal(signal.power_on, signal.shape);
-        reset.push(Statement::Assign(format!("{} <= {power_on};", signal.name)));
+        reset.push(Statement::Assign(format!(
+            "{} <= {power_on};",
+            stored(signal)
+        )));
         let next = signal.driver;
         let next = next.and_then(|next| statement(module, expressions, register, next));
         if let Some(statement) = next {
@@ -80,7 +83,7 @@ fn statement(
             ),
         });
     }
-    let name = &module.signals[register].name;
+    let name = stored(&module.signals[register]);
     Some(Statement::Assign(format!(
         "{name} <= {};",
         expressions.value(next)

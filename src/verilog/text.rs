@@ -59,14 +59,81 @@ pub(super) fn comment(signal: &Signal) -> String {
         let states: Vec<String> = states.collect();
         let _ = write!(comment, " {}.", states.join(", "));
     }
-    comment
+    ascii(&comment)
+}
+
+/// Writes a text in ASCII: signs as in source code, Greek letters by their names, and any other
+/// character by its number, as in U+00E9.
+pub(super) fn ascii(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    let mut letters = text.chars().peekable();
+    while let Some(letter) = letters.next() {
+        let Some(name) = greek(letter) else {
+            match letter.is_ascii() {
+                true => plain.push(letter),
+                false => match sign(letter) {
+                    Some(sign) => plain.push_str(sign),
+                    // Writing to a string does not fail.
+                    None => drop(write!(plain, "U+{:04X}", u32::from(letter))),
+                },
+            }
+            continue;
+        };
+        if plain.ends_with(|before: char| before.is_ascii_alphanumeric()) {
+            plain.push(' ');
+        }
+        plain.push_str(name);
+        if letters.peek().is_some_and(|next| next.is_alphanumeric()) {
+            plain.push(' ');
+        }
+    }
+    plain
+}
+
+fn greek(letter: char) -> Option<&'static str> {
+    Some(match letter {
+        'Δ' => "Delta",
+        'Σ' => "Sigma",
+        'α' => "alpha",
+        'δ' => "delta",
+        'θ' => "theta",
+        'ν' => "nu",
+        'π' => "pi",
+        'σ' => "sigma",
+        'φ' => "phi",
+        'ω' => "omega",
+        _ => return None,
+    })
+}
+
+fn sign(sign: char) -> Option<&'static str> {
+    Some(match sign {
+        '−' | '–' | '—' | '‑' | '⁻' => "-",
+        '⁺' => "+",
+        '·' => "*",
+        '×' => "x",
+        '÷' => "/",
+        '±' => "+-",
+        '≤' => "<=",
+        '≥' => ">=",
+        '≠' => "!=",
+        '…' => "...",
+        '′' | '’' | '‘' => "'",
+        '²' => "^2",
+        '³' => "^3",
+        '⁴' => "^4",
+        '°' => " degrees",
+        'µ' | 'μ' => "u",
+        '½' => "1/2",
+        '→' => "->",
+        _ => return None,
+    })
 }
 
 /// A doc comment in one line, without the marks of a link.
 pub(super) fn clean(doc: &str) -> String {
     let words: Vec<&str> = doc.split_whitespace().collect();
-    words
-        .join(" ")
+    ascii(&words.join(" "))
         .replace("[`", "")
         .replace("`]", "")
         .replace('`', "")
@@ -108,5 +175,24 @@ impl Body {
     pub(super) fn finish(mut self) -> String {
         self.space();
         self.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ascii;
+
+    #[test]
+    fn signs_letters_and_what_has_no_other_form() {
+        for (text, plain) in [
+            ("2^width, x[3:0]", "2^width, x[3:0]"),
+            ("v²/2a ≤ −1·Δt", "v^2/2a <= -1*Delta t"),
+            ("2π", "2 pi"),
+            ("θ is 90°", "theta is 90 degrees"),
+            ("0.5 µm … 1 μm", "0.5 um ... 1 um"),
+            ("é€", "U+00E9U+20AC"),
+        ] {
+            assert_eq!(ascii(text), plain);
+        }
     }
 }

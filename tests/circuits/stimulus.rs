@@ -30,7 +30,7 @@ fn run(seed: u64, ticks: u64, resets: bool) -> Drive {
 /// The waves and the stimulus of a run.
 fn files<C: Circuit>(circuit: &C, run: &Drive) -> (Vec<u8>, String, Driven) {
     let (mut waves, mut stimulus) = (Vec::new(), Vec::new());
-    let driven = drive(circuit, run, &mut waves, &mut stimulus).expect("it is driven");
+    let driven = drive(circuit, run, &mut waves, &mut stimulus, io::sink()).expect("it is driven");
     let stimulus = String::from_utf8(stimulus).expect("it is text");
     (waves, stimulus, driven)
 }
@@ -184,6 +184,13 @@ fn every_circuit_is_made_at_its_widths() {
     }
 }
 
+/// Drives a circuit, and keeps no file.
+fn driven(circuit: &dyn AnyModel, run: &Drive) -> Driven {
+    let [waves, stimulus, expected] = &mut [io::sink(), io::sink(), io::sink()];
+    let driven = circuit.drive(run, waves, stimulus, expected);
+    driven.unwrap_or_else(|error| panic!("{}: {error}", circuit.name()))
+}
+
 #[test]
 #[ignore = "takes long"]
 fn every_bit_that_can_move_moves() {
@@ -197,8 +204,8 @@ fn every_bit_that_can_move_moves() {
             .then(|| scaled::model(entry, 8).expect(entry.name));
         let narrow = narrow.map(|model| ("8", model, NEVER));
         for (size, model, allowed) in [full].into_iter().chain(narrow) {
-            let driven = model.drive(&run(3, 100_000, true), &mut io::sink(), &mut io::sink());
-            let Driven { coverage, resets } = driven.expect(entry.name);
+            let driven = driven(&*model, &run(3, 100_000, true));
+            let Driven { coverage, resets } = driven;
             let (covered, all) = coverage.bits();
             let name = entry.name;
             println!("{name}, {size}: {covered} of {all} bits, {resets} resets");
@@ -241,8 +248,8 @@ const STILL: &[(&str, usize)] = &[
 fn what_takes_records_moves() {
     let left = STILL.par_iter().with_max_len(1).rev().map(|(name, most)| {
         let circuit = motion_rtl::registry::find(name).expect(name).full();
-        let driven = circuit.drive(&run(1, 20_000, true), &mut io::sink(), &mut io::sink());
-        let coverage = driven.expect(name).coverage;
+        let driven = driven(&*circuit, &run(1, 20_000, true));
+        let coverage = driven.coverage;
         let still: Vec<_> = coverage.still().map(|signal| signal.path).collect();
         println!("{name}: {} of {}", still.len(), coverage.signals());
         let told = || format!("{name}: {} still, {most} allowed: {still:?}", still.len());

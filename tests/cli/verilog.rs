@@ -28,7 +28,15 @@ fn a_module_each_is_written_and_named() {
 fn a_testbench_comes_with_its_stimulus_and_golden_waves() {
     let bench = Bench::new();
     let said = bench.succeed(&verilog("enable_counter", &TESTBENCH));
-    let files = [".v", "_tb.v", ".f", ".vcd", ".stimulus", ".still"];
+    let files = [
+        ".v",
+        "_tb.v",
+        ".f",
+        ".vcd",
+        ".stimulus",
+        ".expected",
+        ".still",
+    ];
     let files = files.map(|end| format!("v/enable_counter{end}"));
     let (stimulus, names) = said.split_at(said.find("v/").unwrap());
     assert_eq!(
@@ -41,7 +49,8 @@ fn a_testbench_comes_with_its_stimulus_and_golden_waves() {
     let waves = bench.read(&files[3]);
     assert!(waves.contains("period 10 x 100 ns"), "{}", &waves[..300]);
     assert_eq!(bench.read(&files[4]).lines().count(), 200);
-    assert_eq!(bench.names().len(), 7);
+    assert_eq!(bench.read(&files[5]).lines().count(), 200);
+    assert_eq!(bench.names().len(), 8);
 }
 
 /// A few are named, all are in a file.

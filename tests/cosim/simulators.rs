@@ -7,6 +7,7 @@ use motion_rtl::registry::{AnyModel, Base, CATALOGUE, Entry};
 use motion_rtl::trace::Clock;
 use rayon::prelude::*;
 use std::fs::File;
+use std::path::Path;
 
 /// At 8 bits nearly all that can move moves in so many: the test of the stimulus asks for all, in
 /// more.
@@ -19,13 +20,11 @@ const LEAST_TICKS: u64 = 2_000;
 const MANY_WORDS: usize = 1_000;
 const SEED: u64 = 3;
 
-/// Drives a circuit and its Verilog; returns how many ticks had a reset.
-pub fn hold(circuit: &dyn AnyModel, simulator: Simulator, seed: u64, ticks: u64) -> u64 {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path();
+/// Drives a circuit and writes its Verilog beside what comes of that; returns the files of its
+/// modules, and how many ticks had a reset.
+pub fn export(circuit: &dyn AnyModel, path: &Path, seed: u64, ticks: u64) -> (Vec<String>, u64) {
     let name = circuit.name();
-    let verilog = circuit.verilog().unwrap();
-    let modules = write(path, &verilog);
+    let modules = write(path, &circuit.verilog().unwrap());
     let drive = Drive {
         seed,
         ticks,
@@ -33,8 +32,21 @@ pub fn hold(circuit: &dyn AnyModel, simulator: Simulator, seed: u64, ticks: u64)
         clock: Clock::default(),
     };
     let create = |extension: &str| File::create(path.join(format!("{name}.{extension}"))).unwrap();
-    let driven = circuit.drive(&drive, &mut create("vcd"), &mut create("stimulus"));
-    let resets = driven.unwrap().resets;
+    let driven = circuit.drive(
+        &drive,
+        &mut create("vcd"),
+        &mut create("stimulus"),
+        &mut create("expected"),
+    );
+    (modules, driven.unwrap().resets)
+}
+
+/// Holds a circuit and its Verilog against each other; returns how many ticks had a reset.
+pub fn hold(circuit: &dyn AnyModel, simulator: Simulator, seed: u64, ticks: u64) -> u64 {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    let name = circuit.name();
+    let (modules, resets) = export(circuit, path, seed, ticks);
     let report = simulator.hold(path, name, &modules);
     complete(&report, ticks, circuit.outline().leaves.len());
     resets
@@ -65,6 +77,12 @@ fn all(work: impl Fn(&dyn AnyModel, u64) + Sync) {
             work(&*circuit, ticks);
         }
     });
+}
+
+/// Every circuit of the catalogue at its own widths, on all cores.
+pub fn all_own(work: impl Fn(&dyn AnyModel) + Sync) {
+    let entries = CATALOGUE.par_iter().rev().with_max_len(1);
+    entries.for_each(|entry| work(&*entry.full()));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The programs that are held against the model.
 
 use motion_rtl::compare::{Report, Settings, compare};
+use motion_rtl::trace::Clock;
 use motion_rtl::verilog::Verilog;
 use std::fs;
 use std::path::Path;
@@ -26,7 +27,7 @@ pub fn run(directory: &Path, program: &str, arguments: &[&str]) -> String {
 /// Writes the files of a design; returns the names of its modules' files.
 pub fn write(directory: &Path, verilog: &Verilog) -> Vec<String> {
     let sources = verilog.sources();
-    for source in sources.iter().chain(&verilog.testbench()) {
+    for source in sources.iter().chain(&verilog.testbench(Clock::default())) {
         fs::write(directory.join(&source.name), &source.text).unwrap();
     }
     let modules = sources.into_iter().map(|source| source.name);
@@ -56,7 +57,8 @@ impl Simulator {
                     &[&["-g2001", "-Wall", "-s", &bench, "-o", &bench], &files[..]].concat(),
                 );
                 assert_eq!(said, "", "Icarus warns");
-                run(directory, "vvp", &["-n", &bench]);
+                let said = run(directory, "vvp", &["-n", &bench]);
+                passes(&said);
             }
             Simulator::Verilator => {
                 let options = [
@@ -75,12 +77,26 @@ impl Simulator {
                     &bench,
                 ];
                 run(directory, "verilator", &[&options[..], &files].concat());
-                run(directory, &format!("obj_dir/V{bench}"), &[]);
+                let said = run(directory, &format!("obj_dir/V{bench}"), &[]);
+                passes(&said);
             }
         }
         let [golden, other] = [name, &bench].map(|stem| directory.join(format!("{stem}.vcd")));
         compare(&golden, &other, &Settings::default()).unwrap_or_else(|fault| panic!("{fault}"))
     }
+}
+
+/// The testbench passes, and nothing else is said but where the dump and its end are.
+#[track_caller]
+fn passes(said: &str) {
+    let notes = ["VCD info: dumpfile ", "FST info: dumpfile "];
+    let lines = said.lines();
+    let lines = lines.filter(|line| !notes.iter().any(|note| line.starts_with(note)));
+    let lines: Vec<_> = lines
+        .filter(|line| !line.ends_with(": Verilog $finish"))
+        .collect();
+    let passed = lines.first().is_some_and(|line| line.starts_with("PASS: "));
+    assert!(passed && lines.len() == 1, "{said}");
 }
 
 /// Every golden signal was compared in every tick, and none differed.

@@ -73,7 +73,10 @@ fn row(entry: &Entry, old: &str) -> String {
         .map(|(name, bits)| format!("{name} = {bits}"))
         .collect();
     let sources = circuit.verilog().unwrap().sources();
-    let text: String = sources.into_iter().map(|source| source.text).collect();
+    let text: String = sources
+        .iter()
+        .flat_map(|source| code(&source.text))
+        .collect();
     let begin = format!("| `{name}` | {} | {:016x} |", widths.join(", "), fnv(&text));
     if text.len() > SHORT && old.starts_with(&begin) {
         return old.to_owned();
@@ -96,6 +99,13 @@ fn row(entry: &Entry, old: &str) -> String {
         count("SB_CARRY"),
         count("SB_RAM40"),
     )
+}
+
+/// The lines of a file without comments.
+fn code(text: &str) -> impl Iterator<Item = &str> {
+    let lines = text.lines().filter_map(|line| line.split("//").next());
+    let lines = lines.map(str::trim_end).filter(|line| !line.is_empty());
+    lines.flat_map(|line| [line, "\n"])
 }
 
 /// FNV-1a of a text.

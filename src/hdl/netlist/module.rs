@@ -51,6 +51,17 @@ pub struct Signal {
 }
 
 impl Module {
+    /// True if the words of a memory are leaves of the walk; those of a ROM are not.
+    pub(crate) fn has_leaves(&self, memory: usize) -> bool {
+        self.registers.contains(&Register::Memory(memory))
+    }
+
+    /// Returns the output ports, in their order.
+    pub fn outputs(&self) -> impl Iterator<Item = &Signal> {
+        let outputs = self.signals.iter();
+        outputs.filter(|signal| signal.role != Role::Input && signal.is_port())
+    }
+
     /// Returns the input ports, in their order.
     pub fn inputs(&self) -> impl Iterator<Item = &Signal> {
         let inputs = self.signals.iter();
@@ -59,6 +70,12 @@ impl Module {
 }
 
 impl Signal {
+    /// Returns the Verilog name of the register behind an output port.
+    pub(crate) fn behind(&self) -> Option<String> {
+        let register = self.is_port() && self.role == Role::Register;
+        register.then(|| format!("{}_reg", self.name))
+    }
+
     /// True if the signal is a port.
     pub fn is_port(&self) -> bool {
         self.owner.is_none() && (self.role == Role::Input || self.field.public)
@@ -94,14 +111,16 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// Returns the names that Verilog derives from the memory: loops over its words.
+    /// Returns the names that Verilog derives from the memory: loops over its words, and their
+    /// wires.
     pub(crate) fn loops(&self) -> impl Iterator<Item = String> {
         let zeros = (!self.filled).then_some("word");
         let shift: &[&str] = match self.port {
             Port::Shift { .. } => &["to", "shift"],
             Port::Ram { .. } | Port::Rom => &[],
         };
-        let loops = zeros.into_iter().chain(shift.iter().copied());
+        let loops = zeros.into_iter().chain(["at", "words"]);
+        let loops = loops.chain(shift.iter().copied());
         loops.map(|of| format!("{}_{of}", self.name))
     }
 }

@@ -1,23 +1,25 @@
 // pattern_memory: direction and half-period per unit time, for one axis.
 // Made by motion-rtl from the circuit of that name.
 
+`timescale 1ns / 1ps
+
 module pattern_memory #(
     parameter [2:0] AXIS = 3'd0
 ) (
     input  wire       clk,
-    input  wire       rst,                // Registers to their power-on values; memories stay.
-    input  wire       read,               // Reads the word at address into the output registers.
-    input  wire       blank,              // Puts "no pulse" into the output registers; the direction
-                                          // stays. read has priority.
-    input  wire       address,            // Address of the next unit time.
-    input  wire       write,              // Writes a word of the axis that write_axis names.
-    input  wire [2:0] write_axis,         // The axis written to.
-    input  wire       write_address,      // Address written to.
-    input  wire [3:0] write_half_period,  // Half-period written.
-    input  wire       write_direction,    // Direction written.
-    output reg  [3:0] half_period = 4'd0, // Half-period of the unit time that runs, in ticks; 0 for no
-                                          // pulse.
-    output reg        direction = 1'b0    // Direction of the unit time that runs; high counts down.
+    input  wire       rst,               // Registers to their power-on values; memories stay.
+    input  wire       read,              // Reads the word at address into the output registers.
+    input  wire       blank,             // Puts "no pulse" into the output registers; the direction
+                                         // stays. read has priority.
+    input  wire       address,           // Address of the unit time to come.
+    input  wire       write,             // Writes a word of the axis that write_axis names.
+    input  wire [2:0] write_axis,        // The axis written to.
+    input  wire       write_address,     // Address written to.
+    input  wire [3:0] write_half_period, // Half-period written.
+    input  wire       write_direction,   // Direction written.
+    output wire [3:0] half_period,       // Half-period of the unit time that runs, in ticks; 0 for no
+                                         // pulse.
+    output wire       direction          // Direction of the unit time that runs; high counts down.
 );
 
     // Half-periods, one word per unit time.
@@ -26,6 +28,15 @@ module pattern_memory #(
     initial
         for (half_periods_word = 0; half_periods_word < 2; half_periods_word = half_periods_word + 1)
             half_periods[half_periods_word] = 4'd0;
+`ifdef __ICARUS__
+    generate
+        genvar half_periods_at;
+        for (half_periods_at = 0; half_periods_at < 2;
+            half_periods_at = half_periods_at + 1) begin : half_periods_words
+                wire [3:0] word = half_periods[half_periods_at];
+        end
+    endgenerate
+`endif
 
     // Directions, one bit per unit time.
     reg  [0:0] directions [0:1];
@@ -33,6 +44,20 @@ module pattern_memory #(
     initial
         for (directions_word = 0; directions_word < 2; directions_word = directions_word + 1)
             directions[directions_word] = 1'b0;
+`ifdef __ICARUS__
+    generate
+        genvar directions_at;
+        for (directions_at = 0; directions_at < 2;
+            directions_at = directions_at + 1) begin : directions_words
+                wire word = directions[directions_at];
+        end
+    endgenerate
+`endif
+
+    reg  [3:0] half_period_reg = 4'd0;
+    reg        direction_reg = 1'b0;
+    assign half_period = half_period_reg;
+    assign direction = direction_reg;
 
     // A word is written to this axis.
     wire selected = write && write_axis == AXIS;
@@ -49,21 +74,23 @@ module pattern_memory #(
 
     always @(posedge clk)
         if (rst) begin
-            half_period <= 4'd0;
-            direction <= 1'b0;
+            half_period_reg <= 4'd0;
+            direction_reg <= 1'b0;
         end else begin
             if (clear)
-                half_period <= 4'd0;
+                half_period_reg <= 4'd0;
             else if (read)
-                half_period <= half_periods[address];
+                half_period_reg <= half_periods[address];
             if (read)
-                direction <= directions[address];
+                direction_reg <= directions[address];
         end
 
 endmodule
 
 // pulse_generator: toggles its pulse signal every half-period.
 // Made by motion-rtl from the circuit of that name.
+
+`timescale 1ns / 1ps
 
 module pulse_generator (
     input  wire       clk,
@@ -126,19 +153,24 @@ endmodule
 // sync_stage: flip-flop that loads the pulse signal, or 0 in the tick of RST.
 // Made by motion-rtl from the circuit of that name.
 
+`timescale 1ns / 1ps
+
 module sync_stage (
     input  wire clk,
-    input  wire rst,        // Registers to their power-on values; memories stay.
-    input  wire pulse,      // The pulse signal.
-    input  wire unit_rst,   // Last tick of the unit time.
-    output reg  step = 1'b0 // Step pulses to the motor driver; a step is a rising edge.
+    input  wire rst,      // Registers to their power-on values; memories stay.
+    input  wire pulse,    // The pulse signal.
+    input  wire unit_rst, // Last tick of the unit time.
+    output wire step      // Step pulses to the motor driver; a step is a rising edge.
 );
+
+    reg  step_reg = 1'b0;
+    assign step = step_reg;
 
     always @(posedge clk)
         if (rst)
-            step <= 1'b0;
+            step_reg <= 1'b0;
         else
-            step <= pulse && !unit_rst;
+            step_reg <= pulse && !unit_rst;
 
 `ifdef FORMAL
     reg f_past_valid = 1'b0;
@@ -160,13 +192,15 @@ endmodule
 // axis: pattern memory, pulse generator and sync stage of one axis.
 // Made by motion-rtl from the circuit of that name.
 
+`timescale 1ns / 1ps
+
 module axis (
     input  wire       clk,
     input  wire       rst,               // Registers to their power-on values; memories stay.
     input  wire       unit_rst,          // Last tick of the unit time.
-    input  wire       read,              // Reads the word at address for the next unit time.
-    input  wire       blank,             // The next unit time has no pulses.
-    input  wire       address,           // Address of the next unit time.
+    input  wire       read,              // Reads the word at address for the unit time to come.
+    input  wire       blank,             // The unit time to come has no pulses.
+    input  wire       address,           // Address of the unit time to come.
     input  wire       write,             // Writes a word of the axis that write_axis names.
     input  wire [2:0] write_axis,        // The axis written to.
     input  wire       write_address,     // Address written to.

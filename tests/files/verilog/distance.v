@@ -1,21 +1,28 @@
 // distance: how far a position moves in a tick.
 // Made by motion-rtl from the circuit of that name.
 
+`timescale 1ns / 1ps
+
 module distance (
     input  wire              clk,
-    input  wire              rst,          // Registers to their power-on values; memories stay.
-    input  wire signed [3:0] position,     // A position.
-    output reg  signed [3:0] old = 4'sd0,  // The position a tick ago.
-    output reg  signed [4:0] moved = 5'sd0 // By how much it moved.
+    input  wire              rst,      // Registers to their power-on values; memories stay.
+    input  wire signed [3:0] position, // A position.
+    output wire signed [3:0] old,      // The position a tick ago.
+    output wire signed [4:0] moved     // By how much it moved.
 );
+
+    reg  signed [3:0] old_reg = 4'sd0;
+    reg  signed [4:0] moved_reg = 5'sd0;
+    assign old = old_reg;
+    assign moved = moved_reg;
 
     always @(posedge clk)
         if (rst) begin
-            old <= 4'sd0;
-            moved <= 5'sd0;
+            old_reg <= 4'sd0;
+            moved_reg <= 5'sd0;
         end else begin
-            old <= position;
-            moved <= $signed({{1{position[3]}}, position}) - $signed({{1{old[3]}}, old});
+            old_reg <= position;
+            moved_reg <= $signed({{1{position[3]}}, position}) - $signed({{1{old[3]}}, old});
         end
 
 `ifdef FORMAL

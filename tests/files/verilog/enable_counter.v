@@ -1,6 +1,8 @@
 // enable_counter: divides the reference clock: one tick of enable per period.
 // Made by motion-rtl from the circuit of that name.
 
+`timescale 1ns / 1ps
+
 module enable_counter (
     input  wire       clk,
     input  wire       rst,    // Registers to their power-on values; memories stay.

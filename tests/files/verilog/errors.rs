@@ -92,8 +92,8 @@ fn the_surrounding_circuit_says_what_registers_hold_at_power_on() {
     let sources = Verilog::of(&Around(Way::Ports)).unwrap().sources();
     let text = &sources[0].text;
     assert_eq!(sources[0].name, "count_up.v");
-    assert!(text.contains("output reg  [3:0] count = 4'd11"), "{text}");
-    assert!(text.contains("count <= 4'd11;"), "{text}");
+    assert!(text.contains("reg  [3:0] count_reg = 4'd11;"), "{text}");
+    assert!(text.contains("count_reg <= 4'd11;"), "{text}");
 }
 
 /// A signal called as one in a bundle is.

@@ -47,15 +47,16 @@ fn bits(digits: &str, low: usize, width: usize) -> u64 {
 
 /// Runs circuit and netlist side by side; returns the ticks that were compared.
 fn hold(circuit: &dyn AnyModel, seed: u64) -> u64 {
-    let (mut waves, mut stimulus) = (Vec::new(), Vec::new());
+    let (mut waves, mut stimulus, mut outputs) = (Vec::new(), Vec::new(), Vec::new());
     let drive = Drive {
         seed,
         ticks: TICKS,
         resets: true,
         clock: Clock::default(),
     };
-    circuit.drive(&drive, &mut waves, &mut stimulus).unwrap();
-    let stimulus = String::from_utf8(stimulus).unwrap();
+    let driven = circuit.drive(&drive, &mut waves, &mut stimulus, &mut outputs);
+    driven.unwrap();
+    let [stimulus, outputs] = [stimulus, outputs].map(|text| String::from_utf8(text).unwrap());
     let verilog = circuit.verilog().unwrap();
     let design = verilog.design();
     let mut instance = Instance::new(design);
@@ -72,15 +73,25 @@ fn hold(circuit: &dyn AnyModel, seed: u64) -> u64 {
     names(&header.items, &[], &mut variables);
     let clock = format!("{}_clk", circuit.name());
     let leaves = circuit.outline().leaves.len();
-    let mut lines = stimulus.lines();
+    let ports: Vec<(String, usize)> = top
+        .outputs()
+        .map(|port| {
+            (
+                format!("{}_{}", circuit.name(), port.name),
+                port.shape.width,
+            )
+        })
+        .collect();
+    let mut lines = stimulus.lines().zip(outputs.lines());
+    assert_eq!(outputs.lines().count() as u64, TICKS);
     let mut ticks = 0;
     let shown = instance.names(circuit.name());
     assert_eq!(shown.len(), leaves, "{}", circuit.name());
-    let places: HashMap<_, _> = shown.iter().zip(0..).collect();
+    let named: HashMap<_, usize> = shown.iter().zip(0..).collect();
     let places: HashMap<IdCode, (bool, Vec<usize>)> = variables
         .iter()
         .map(|(code, names)| {
-            let shown = names.iter().filter_map(|name| places.get(name).copied());
+            let shown = names.iter().filter_map(|name| named.get(name).copied());
             (*code, (names.contains(&clock), shown.collect()))
         })
         .collect();
@@ -105,7 +116,9 @@ fn hold(circuit: &dyn AnyModel, seed: u64) -> u64 {
         if !clocks || value == 1 {
             continue;
         }
-        let Some(line) = lines.next() else { break };
+        let Some((line, outputs)) = lines.next() else {
+            break;
+        };
         let mut low = 0;
         let mut port = |width: usize| {
             low += width;
@@ -118,6 +131,12 @@ fn hold(circuit: &dyn AnyModel, seed: u64) -> u64 {
         instance.values(&mut values);
         for ((value, golden), name) in values.iter().zip(&golden).zip(&shown) {
             assert_eq!(golden.as_ref(), Some(value), "{name} in tick {ticks}");
+        }
+        let mut low = 0;
+        for (name, width) in &ports {
+            let expected = bits(outputs, low, *width);
+            assert_eq!(values[named[name]], expected, "{name} in tick {ticks}");
+            low += width;
         }
         instance.edge(reset);
         ticks += 1;

@@ -5,6 +5,7 @@ use expect_test::expect_file;
 use motion_rtl::circuits::blocks::EnableCounter;
 use motion_rtl::circuits::pulse_interpolator::{AddressSequencer, Axis, PatternMemory, Variant};
 use motion_rtl::hdl::prelude::*;
+use motion_rtl::trace::Clock;
 use motion_rtl::verilog::Verilog;
 
 const COUNTER: EnableCounter = EnableCounter { width: 4 };
@@ -95,6 +96,9 @@ fn parts_of_words_of_before_in_an_assertion() {
 
 #[test]
 fn a_testbench() {
-    let bench = Verilog::of(&COUNTER).unwrap().testbench().unwrap();
+    let bench = Verilog::of(&COUNTER)
+        .unwrap()
+        .testbench(Clock::default())
+        .unwrap();
     expect_file!["enable_counter_tb.v"].assert_eq(&bench.text);
 }
