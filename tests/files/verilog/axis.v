@@ -29,6 +29,7 @@ module pattern_memory #(
         for (half_periods_word = 0; half_periods_word < 2; half_periods_word = half_periods_word + 1)
             half_periods[half_periods_word] = 4'd0;
 `ifdef __ICARUS__
+    // Words as wires, for dumps.
     generate
         genvar half_periods_at;
         for (half_periods_at = 0; half_periods_at < 2;
@@ -45,6 +46,7 @@ module pattern_memory #(
         for (directions_word = 0; directions_word < 2; directions_word = directions_word + 1)
             directions[directions_word] = 1'b0;
 `ifdef __ICARUS__
+    // Words as wires, for dumps.
     generate
         genvar directions_at;
         for (directions_at = 0; directions_at < 2;
@@ -212,7 +214,12 @@ module axis (
 );
 
     wire [3:0] memory_half_period;
+    wire       memory_direction;
     wire       generator_pulse;
+    wire       sync_step;
+
+    assign dir = memory_direction;
+    assign step = sync_step;
 
     pattern_memory #(
         .AXIS(3'd0)
@@ -228,7 +235,7 @@ module axis (
         .write_half_period (write_half_period),
         .write_direction   (write_direction),
         .half_period       (memory_half_period),
-        .direction         (dir)
+        .direction         (memory_direction)
     );
 
     pulse_generator generator (
@@ -244,7 +251,7 @@ module axis (
         .rst      (rst),
         .pulse    (generator_pulse),
         .unit_rst (unit_rst),
-        .step     (step)
+        .step     (sync_step)
     );
 
 endmodule

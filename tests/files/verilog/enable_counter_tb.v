@@ -2,7 +2,7 @@
 //
 // Applies enable_counter.stimulus, a line a tick, and dumps every signal.
 // A line is a hexadecimal word: the inputs side by side, the first lowest, and rst on top. A tick
-// is what stands before a rising edge of clk; inputs change at that edge.
+// is what stands before a rising edge of clk; inputs change with its falling edge.
 //
 // Holds the ports out against enable_counter.expected, a line a tick.
 // A line is a hexadecimal word: the ports out side by side, the first lowest. The last line printed
@@ -63,8 +63,8 @@ module enable_counter_tb;
             items = $fscanf(file, "%h", line);
             if (items == 1) begin
                 clk = 1'b1;
-                stimulus <= line;
                 #5 clk = 1'b0;
+                stimulus = line;
             end
         end
         items = $fscanf(golden, "%h", expected);

@@ -6,7 +6,8 @@ use motion_rtl::trace::Clock;
 use motion_rtl::verilog::{SourceFile, Verilog};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-const LONGEST: usize = 110;
+/// A product of two words that are extended with their signs is not broken.
+const LONGEST: usize = 122;
 
 /// Declarations of a module: its names with their kind and width, and its instances with their
 /// modules.
