@@ -11,15 +11,15 @@ module address_sequencer (
     input  wire [3:0] pending_base,   // Its pattern's first address.
     input  wire [3:0] pending_last,   // Its pattern's last address.
     input  wire       pending_cyclic, // Its pattern starts again after its last word.
-    input  wire       pending_run,    // It starts a pattern; low: it stops the one that runs.
-    input  wire       pending_now,    // It is taken at the next RST; low: at the RST that ends the
-                                      // pattern.
-    output wire       state,          // Whether a pattern runs. 0 IDLE, 1 RUN.
+    input  wire       pending_run,    // High: starts a pattern; low: stops the running one.
+    input  wire       pending_now,    // High: the command is taken at the next RST; low: at the RST
+                                      // that ends the pattern.
+    output wire       state,          // State: a pattern runs or not. 0 IDLE, 1 RUN.
     output wire [3:0] address,        // Address of the unit time that runs.
     output wire       take,           // The waiting command is taken with this tick.
-    output wire [3:0] next_address,   // Address of the unit time to come.
+    output wire [3:0] next_address,   // Address of the next unit time.
     output wire       read,           // The pattern memory reads next_address.
-    output wire       blank           // The unit time to come has no pulses.
+    output wire       blank           // The next unit time has no pulses.
 );
 
     reg        state_reg = 1'b0;
@@ -32,15 +32,15 @@ module address_sequencer (
 
     // The unit time that runs is the last of its pattern.
     wire at_last = address == last;
-    // That, or no pattern runs.
+    // The unit time is the last of its pattern, or no pattern runs.
     wire at_end = !state || at_last;
     // The waiting command is for the next RST.
     wire due = pending && (at_end || pending_now);
-    // That command starts a pattern.
+    // The waiting command starts a pattern.
     wire start = due && pending_run;
     // Address that follows in the pattern that runs.
     wire [3:0] following = at_last && cyclic ? base : address + 4'd1;
-    // A pattern runs in the unit time to come, if this is the tick of RST.
+    // A pattern runs in the next unit time, if this is the tick of RST.
     wire go_on = due ? pending_run : state && (!at_last || cyclic);
     assign next_address = go_on ? (start ? pending_base : following) : address;
     assign take = unit_rst && due;

@@ -11,7 +11,7 @@ module pattern_memory #(
     input  wire       read,              // Reads the word at address into the output registers.
     input  wire       blank,             // Puts "no pulse" into the output registers; the direction
                                          // stays. read has priority.
-    input  wire       address,           // Address of the unit time to come.
+    input  wire       address,           // Address of the next unit time.
     input  wire       write,             // Writes a word of the axis that write_axis names.
     input  wire [2:0] write_axis,        // The axis written to.
     input  wire       write_address,     // Address written to.
@@ -200,9 +200,9 @@ module axis (
     input  wire       clk,
     input  wire       rst,               // Registers to their power-on values; memories stay.
     input  wire       unit_rst,          // Last tick of the unit time.
-    input  wire       read,              // Reads the word at address for the unit time to come.
-    input  wire       blank,             // The unit time to come has no pulses.
-    input  wire       address,           // Address of the unit time to come.
+    input  wire       read,              // Reads the word at address for the next unit time.
+    input  wire       blank,             // The next unit time has no pulses.
+    input  wire       address,           // Address of the next unit time.
     input  wire       write,             // Writes a word of the axis that write_axis names.
     input  wire [2:0] write_axis,        // The axis written to.
     input  wire       write_address,     // Address written to.

@@ -7,7 +7,7 @@ use motion_rtl::verilog::{SourceFile, Verilog};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// A product of two words that are extended with their signs is not broken.
-const LONGEST: usize = 122;
+const LONGEST: usize = 125;
 
 /// Declarations of a module: its names with their kind and width, and its instances with their
 /// modules.
