@@ -15,14 +15,14 @@ const MADE: &str = "// Made by motion-rtl: ";
 /// Files of a circuit in Verilog, and the list of them.
 #[derive(Debug)]
 pub struct Export {
-    /// How the user asked for it.
+    /// Name of the export: the command that makes it.
     name: String,
     sources: Vec<SourceFile>,
     list: SourceFile,
 }
 
 impl Export {
-    /// The files of a circuit; with a testbench for waves of this clock, if one is wanted.
+    /// Creates the files of a circuit, with a testbench for waves of a clock if one is given.
     pub fn new(verilog: &Verilog, testbench: Option<Clock>, name: String) -> Self {
         let mut sources = verilog.sources();
         let top = verilog.design().modules.last();
@@ -46,20 +46,19 @@ impl Export {
         }
     }
 
-    /// All files.
     pub fn files(&self) -> impl Iterator<Item = &SourceFile> {
         self.sources.iter().chain([&self.list])
     }
 
-    /// Refuses to change a file that is not of an earlier export of this circuit alone.
+    /// Refuses to overwrite a file unless it belongs only to an earlier export of this circuit.
     ///
     /// # Errors
-    /// The file, with the export that it is of.
+    /// The file and the export that it belongs to.
     pub fn check(&self, directory: &Path) -> Result<(), Failure> {
         let lists = lists(directory);
         for SourceFile { name, text } in &self.sources {
             let path = directory.join(name);
-            // What is not there, or is no file, is for the writer to say.
+            // The writer reports a path that is missing or is no file.
             let Ok(there) = fs::read(&path) else {
                 continue;
             };
@@ -92,14 +91,14 @@ impl Export {
     }
 }
 
-/// List of an export's files that is in a directory.
+/// List of an export's files, found in a directory.
 struct List {
     file: String,
     name: String,
     files: Vec<String>,
 }
 
-/// Lists of a directory, in order; other files of their extension are none.
+/// Returns the lists in a directory, in order; skips other files with their extension.
 fn lists(directory: &Path) -> Vec<List> {
     let entries = fs::read_dir(directory).into_iter().flatten().flatten();
     let names = entries.filter_map(|entry| entry.file_name().into_string().ok());

@@ -68,7 +68,7 @@ impl Format {
     }
 }
 
-/// What the save file's window shows.
+/// Window of the save file.
 #[derive(Debug, Clone, Copy)]
 pub struct Focus {
     /// The tick that matters.
@@ -82,8 +82,8 @@ pub struct Focus {
 }
 
 impl<'a> Traces<'a> {
-    /// Begins what is asked for of a run of about so many ticks; `printed` is what is printed as
-    /// Verilog: the same circuit, or what stands in it without its plant.
+    /// Begins the requested files of a run of about `ticks` ticks. `printed` is the circuit to
+    /// print as Verilog: the same one, or the part without its plant.
     pub fn begin(
         (circuit, printed): (&impl Described, &impl Described),
         arguments: &Arguments,
@@ -120,13 +120,13 @@ impl<'a> Traces<'a> {
         })
     }
 
-    /// Whether nothing of the run is written.
+    /// Returns true if nothing of the run is written.
     pub fn is_empty(&self) -> bool {
         self.waves.is_none() && self.stimulus.is_none() && self.noted.is_none()
     }
 
-    /// Plays a circuit, seen by all of them, and closes them; `end`
-    /// gives the window of the save file and the ticks of the run.
+    /// Plays a circuit, observed by all files, and closes them; `end` returns the window of the
+    /// save file and the ticks of the run.
     pub fn play<C: Circuit, T>(
         mut self,
         model: &Model,
@@ -147,8 +147,8 @@ impl<'a> Traces<'a> {
         Ok((played, files))
     }
 
-    /// Closes them after so many ticks, and writes the save file; refuses a window of which the run
-    /// has no tick.
+    /// Closes the files after `ticks` ticks and writes the save file; refuses a window outside the
+    /// run.
     pub fn finish(
         mut self,
         circuit: &impl Described,
@@ -186,7 +186,7 @@ impl<'a> Traces<'a> {
     }
 }
 
-/// The circuit's Verilog and its testbench; returns what writes the stimulus and what is expected.
+/// Exports the circuit's Verilog and its testbench; returns the writers of stimulus and outputs.
 fn verilog(
     circuit: &impl Described,
     clock: Clock,
@@ -226,7 +226,7 @@ fn not_selected(error: &LayoutError) -> Failure {
     }
 }
 
-/// All scopes, or of a large circuit those of its blocks.
+/// Formats all scopes; of a large circuit only those of its blocks.
 fn outermost(scopes: &[String]) -> String {
     if scopes.len() <= MOST_SCOPES {
         return scopes.join(", ");
@@ -237,7 +237,7 @@ fn outermost(scopes: &[String]) -> String {
     format!("{}, and {within} within these", shown.join(", "))
 }
 
-/// The run is over before the window begins.
+/// Refuses a window that begins after the end of the run.
 pub fn no_such_tick(options: &Options, ticks: u64) -> Result<(), Failure> {
     if options.ticks.start < ticks {
         return Ok(());

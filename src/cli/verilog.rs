@@ -12,16 +12,16 @@ use motion_rtl::verilog::Verilog;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-/// What to print.
+/// Arguments of `verilog`.
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
     chosen: Chosen,
-    /// Where the files go.
+    /// Directory for the files.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Writes beside the circuit a testbench, a stimulus of this many ticks, the ports out that it
-    /// expects, the golden waves, and a list of the signals that never changed in them.
+    /// Also writes a testbench, a stimulus of TICKS ticks, the expected output ports, the golden
+    /// waves, and a list of the signals that never changed in them.
     #[arg(long, value_name = "TICKS", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(2..=100_000_000))]
     testbench: Option<u64>,
     /// Clock of the golden waves.
@@ -32,7 +32,7 @@ pub struct Arguments {
         requires = "testbench"
     )]
     clock_hz: Option<u64>,
-    /// What the stimulus is drawn from.
+    /// Seed of the random stimulus.
     #[arg(
         long,
         value_name = "NUMBER",
@@ -98,10 +98,10 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
     print(&text)
 }
 
-/// Signals that are named beside their count.
+/// Most signals that are named beside their count.
 const NAMED: usize = 4;
 
-/// Says which of so many signals never changed.
+/// Formats which of a circuit's signals never changed.
 fn never_changed(still: &[Untoggled], signals: usize, name: &str) -> String {
     if still.is_empty() {
         return format!("each of {signals} signals changed");
@@ -127,8 +127,7 @@ fn clock(arguments: &Arguments) -> Result<Clock, Failure> {
     })
 }
 
-/// What stands in a word of the stimulus: the ports in of the module and their bits, the lowest
-/// first.
+/// Returns the layout of a stimulus word: the module's input ports and their bits, lowest first.
 fn word(verilog: &Verilog) -> String {
     let ports = verilog.design().modules.last().map(|top| &top.signals[..]);
     let inputs = ports.unwrap_or_default().iter();

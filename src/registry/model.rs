@@ -11,16 +11,16 @@ use std::path::{Path, PathBuf};
 
 /// A circuit, its type forgotten.
 pub trait AnyModel: Send + Sync {
-    /// Its name.
+    /// Returns the name of the circuit.
     fn name(&self) -> &'static str;
-    /// What it does, in one line.
+    /// Returns a description in one line.
     fn about(&self) -> &'static str;
-    /// It elaborated.
+    /// Elaborates the circuit.
     ///
     /// # Errors
-    /// All that is wrong with it.
+    /// All errors of the circuit.
     fn model(&self) -> Result<Model, EngineError>;
-    /// Its signals, in the order of its waves.
+    /// Returns its signals in the order of its waves.
     fn outline(&self) -> Declarations;
 }
 
@@ -67,7 +67,7 @@ impl dyn AnyModel + '_ {
         chart.run_on(&self.model()?)
     }
 
-    /// It as Verilog.
+    /// Returns the circuit as Verilog.
     ///
     /// # Errors
     /// No netlist can be made of it.
@@ -75,7 +75,7 @@ impl dyn AnyModel + '_ {
         Verilog::of(&self.model()?)
     }
 
-    /// What it is made of, and how that is connected.
+    /// Returns the parts of the circuit and their connections.
     ///
     /// # Errors
     /// No netlist can be made of it.
@@ -101,7 +101,7 @@ impl dyn AnyModel + '_ {
 
 /// A circuit with its proofs, its type forgotten.
 pub trait AnyCircuit: AnyModel {
-    /// The names of its invariants.
+    /// Returns the names of its invariants.
     fn invariants(&self) -> Vec<String>;
     /// Proves its invariants, or finds the shortest way to break one.
     ///
@@ -114,14 +114,14 @@ pub trait AnyCircuit: AnyModel {
     ) -> Result<Verdict, CheckError>;
 }
 
-/// How a proof is searched for.
+/// Options of the search for a proof.
 #[derive(Debug, Clone)]
 pub struct ProofSearch<'a> {
     /// States after which it is given up.
     pub states: u32,
     /// Transitions after which it is given up.
     pub transitions: u64,
-    /// Where a counterexample is written as VCD and save file.
+    /// Directory for a counterexample as VCD and save file.
     pub waves: Option<&'a Path>,
     /// A netlist of the circuit to take in place of its own.
     pub model: Option<Model>,
@@ -138,13 +138,13 @@ impl Default for ProofSearch<'_> {
     }
 }
 
-/// How a proof or a sweep ended.
+/// Result of a proof or a sweep.
 #[derive(Debug)]
 #[must_use = "that something is broken is seen by looking at it"]
 pub enum Verdict<P = Proof> {
     /// Every invariant holds.
     Proved(P),
-    /// One does not.
+    /// An invariant does not hold.
     Broken {
         /// Tick, invariant, signals, and a table of the last ticks.
         report: String,

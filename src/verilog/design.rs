@@ -34,7 +34,7 @@ impl Parameter {
                 )
             }
             None if top => {
-                // What is deep inside has a long name, twice.
+                // A memory deep inside has a long name, twice on the line.
                 let between = if name.len() > 40 { "\n        " } else { " " };
                 format!("parameter {name} ={between}\"{}.hex\"", self.path.join("_"))
             }
@@ -51,7 +51,7 @@ pub(super) fn unsigned(width: usize) -> Shape {
 }
 
 impl Modules<'_> {
-    /// Whether anything in a module is clocked.
+    /// Returns true if anything in a module is clocked.
     pub(super) fn clocked(&self, module: &Module) -> bool {
         module
             .signals
@@ -95,7 +95,7 @@ impl Modules<'_> {
         parameters
     }
 
-    /// Whether it is the module of the circuit itself.
+    /// Returns true for the module of the circuit itself.
     pub(super) fn is_top(&self, module: &Module) -> bool {
         self.modules
             .last()

@@ -50,7 +50,8 @@ impl Modules<'_> {
     }
 }
 
-/// What has a name in the assertions of a module: values of before as registers, others as wires.
+/// Returns declarations for the shared values of a module's assertions: past values as registers,
+/// others as wires.
 fn shared(module: &Module, expressions: &Expressions<'_>) -> String {
     let (mut registers, mut edges, mut wires) = (String::new(), String::new(), String::new());
     for &id in &expressions.names.shared {

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 const TIMESCALE: &str = "`timescale 1ns / 1ps\n";
 
 impl Modules<'_> {
-    /// Parameters and ports.
+    /// Returns the parameters and ports.
     pub(super) fn header(&self, module: &Module, clocked: bool) -> String {
         let mut text = format!("{TIMESCALE}\nmodule {} ", module.name);
         let parameters = self.parameters(module);

@@ -72,7 +72,7 @@ fn words(memory: &Memory, body: &mut Body) {
     body.raw("`endif");
 }
 
-/// How memories are written at the rising edge.
+/// Adds the memories' writes at the rising edge.
 pub(super) fn write_memories(module: &Module, expressions: &Expressions<'_>, body: &mut Body) {
     for (index, memory) in own(module) {
         if let Some((condition, write)) = expressions.port(index) {

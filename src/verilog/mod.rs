@@ -56,7 +56,7 @@ impl Verilog {
     /// The modules of a circuit and of those inside it.
     ///
     /// # Errors
-    /// All that is wrong with the circuit.
+    /// All errors of the circuit.
     pub fn of(circuit: &impl Described) -> Result<Self, EngineError> {
         let design = circuit.described()?.design().clone();
         Ok(Verilog { design })
@@ -98,7 +98,7 @@ impl Verilog {
         sources.chain(contents).collect()
     }
 
-    /// What the circuit's own module asserts for formal tools: the names of its
+    /// Returns the assertions in the circuit's own module for formal tools: the names of its
     /// [properties](crate::hdl::Circuit::properties).
     pub fn assertions(&self) -> Vec<&'static str> {
         let top = self.design.modules.last();

@@ -123,7 +123,7 @@ fn definitions(module: &Module, expressions: &Expressions<'_>, body: &mut Body) 
     body.space();
 }
 
-/// What happens at the rising edge.
+/// Adds the statements at the rising edge.
 fn clock(module: &Module, expressions: &Expressions<'_>, body: &mut Body) {
     write_memories(module, expressions, body);
     let lines = edge(module, expressions, 1);

@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 /// Names longer than this say less than a number.
 const LONGEST: usize = 28;
 
-/// What the nodes of a module are called in its text.
+/// Names of a module's nodes in its text.
 pub(super) struct Names {
     /// The names of nodes: signals, ports of instances, nets, shared subexpressions.
     of: HashMap<Id, String>,
@@ -47,8 +47,8 @@ impl Names {
         names
     }
 
-    /// Names for who reads `module` beside the modules inside it: what comes out of an instance
-    /// keeps the name that it has there. `shown` is how a name is written.
+    /// Returns names for a text that shows `module` beside the modules inside it: an instance's
+    /// output keeps its name there. `shown` formats a name.
     pub(super) fn of_parts(
         module: &Module,
         modules: &[Module],
@@ -142,7 +142,7 @@ impl Names {
         self.share_of(module, &read, &vec![0; read.len()], &parts);
     }
 
-    /// How often each node is used by those that are read, and whether parts of it are taken.
+    /// Returns how often the nodes that are read use each node, and whether they take parts of it.
     fn uses(&self, module: &Module, read: &[bool]) -> (Vec<usize>, Vec<bool>) {
         let mut uses = vec![0_usize; module.nodes.len()];
         let mut parts = vec![false; module.nodes.len()];
@@ -185,7 +185,7 @@ impl Names {
         }
     }
 
-    /// Whether the low bits of a node can be had without a name for the whole.
+    /// Returns true if the low bits of a node can be written without a name for the whole.
     pub(super) fn narrows(&self, module: &Module, id: Id) -> bool {
         if self.of.contains_key(&id) {
             return true;
@@ -201,8 +201,8 @@ impl Names {
         }
     }
 
-    /// Whether a node can be written as an index. Icarus computes an index in more bits than its
-    /// operands have, so what may wrap needs a name.
+    /// Returns true if a node can be written as an index. Icarus computes an index in more bits
+    /// than its operands have, so an expression that may wrap needs a name.
     fn is_index(&self, module: &Module, id: Id) -> bool {
         let named = |id: Id| self.of.contains_key(&id);
         match module.nodes[id].0 {
@@ -214,7 +214,7 @@ impl Names {
         }
     }
 
-    /// Whether it is as short as its name would be.
+    /// Returns true if a node's text is as short as a name would be.
     fn is_plain(&self, module: &Module, id: Id) -> bool {
         let named =
             |id: Id| self.of.contains_key(&id) || module.nodes[id].0.operands().count() == 0;
@@ -286,7 +286,7 @@ impl Names {
     }
 }
 
-/// The bits that an index of so many words has.
+/// Returns the bits of an index into `words` words.
 pub(super) fn index_width(words: usize) -> usize {
     words.next_power_of_two().trailing_zeros() as usize
 }
@@ -334,7 +334,7 @@ fn reserved(module: &Module, modules: &[Module]) -> impl Iterator<Item = String>
         names.push(memory.name.clone());
         names.extend(memory.loops());
     }
-    // What is called as the instance that it is in hides it.
+    // A signal with the name of the instance that it is in is hidden by it.
     let around = modules.iter().flat_map(|around| &around.instances);
     let around = around.filter(|child| std::ptr::eq(&modules[child.module], module));
     names.extend(around.map(|child| child.name.clone()));

@@ -3,12 +3,12 @@ use super::expression::Expressions;
 use super::module::{is_own_register, stored};
 use crate::hdl::netlist::{Id, Module, Node};
 
-/// What happens at a rising edge.
+/// A statement at a rising edge.
 #[derive(Debug, PartialEq)]
 enum Statement {
     /// A register takes a value.
     Assign(String),
-    /// Where a condition holds, or else.
+    /// Condition, statements if it holds, and statements otherwise.
     If(String, Vec<Statement>, Vec<Statement>),
 }
 

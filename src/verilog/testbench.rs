@@ -22,7 +22,7 @@ pub(super) fn testbench(modules: &Modules<'_>, module: &Module, clock: Clock) ->
         ports.push(format!("        .{} (seen[{range}])", signal.name));
     }
     let ports = ports.join(",\n");
-    // What has no clock is compared by the testbench's.
+    // A circuit without a clock is compared at the testbench's clock.
     let dumped = match clocked {
         true => "",
         false => "        $dumpvars(0, clk);\n",

@@ -48,7 +48,7 @@ pub(super) fn annotated(lines: &[(String, String)]) -> Vec<String> {
     annotated
 }
 
-/// What is said of a signal: its doc comment and the names of its states.
+/// Returns the comment of a signal: its doc line and the names of its states.
 pub(super) fn comment(signal: &Signal) -> String {
     let mut comment = clean(signal.field.doc);
     if let Format::States(states) = signal.field.format {
