@@ -99,9 +99,10 @@ fn bracket(times: u32) -> Table {
         include_bytes!("../waves/bracket.ngc"),
     );
     let loaded = Loaded::parse("bracket.toml", scenario, &[]).expect("a scenario");
-    let Scenario::PulseInterpolator(mut scenario) = loaded.scenario else {
+    let Scenario::PulseInterpolator(keys) = loaded.scenario else {
         panic!("{:?}", loaded.scenario);
     };
+    let mut scenario = keys.settings;
     scenario.clock_hz *= u64::from(times);
     scenario.line_unit_ticks *= times;
     scenario.arc_unit_ticks = scenario.arc_unit_ticks.map(|ticks| ticks * times);

@@ -4,22 +4,19 @@
 //! their names; an unknown key, a value of the wrong type and a key given twice are faults with
 //! their line.
 
-pub mod arc_generator;
-mod exactly;
-pub mod lead_angle;
-pub mod linear_interpolator;
 mod loaded;
-pub mod machine;
 mod program;
 pub mod pulse_interpolator;
-pub mod trajectory_controller;
+mod run;
 
-pub use exactly::Place;
 pub use loaded::Loaded;
 pub use program::Program;
+pub use run::{Keys, Run, Settings};
 
 use crate::input::{DRAWINGS, Kind, POSITION_LOGS};
-use serde::Deserialize;
+use crate::jobs::{arc_generator, lead_angle, linear_interpolator, machine, trajectory_controller};
+use crate::settings::{Key, choices, defaults};
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// A scenario with no key but the one that has no default: for an input given by itself.
@@ -30,126 +27,88 @@ const BARE_LOG: &str = "circuit = \"lead_angle\"\n\
      [[step]]\ntarget = 1000\nspeed_counts_per_s = 1000\nlead_ms = 10\n\
      [[step]]\ntarget = 0\nspeed_counts_per_s = 1000\nlead_ms = 10\n";
 
-/// The most ticks that go into a VCD where neither a window nor the scenario says so.
-const VCD_TICKS: u64 = 1_000_000;
-
 /// A scenario of one of the circuits.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Scenario {
     /// JP3640909B2.
-    PulseInterpolator(pulse_interpolator::Scenario),
+    PulseInterpolator(Box<Keys<pulse_interpolator::Settings>>),
     /// JP3608587B2.
-    LinearInterpolator(linear_interpolator::Scenario),
+    LinearInterpolator(Box<Keys<linear_interpolator::settings::Settings>>),
     /// JPH0646367B2.
-    LeadAngle(lead_angle::Scenario),
+    LeadAngle(Box<Keys<lead_angle::settings::Settings>>),
     /// JPH0743606B2.
-    ArcGenerator(arc_generator::Scenario),
+    ArcGenerator(Box<Keys<arc_generator::settings::Settings>>),
     /// CN104204977.
-    TrajectoryController(Box<trajectory_controller::Scenario>),
+    TrajectoryController(Box<Keys<trajectory_controller::settings::Settings>>),
     /// All of them as one motion controller.
-    Machine(Box<machine::Scenario>),
+    Machine(Box<Keys<machine::Settings>>),
 }
 
 impl Scenario {
-    /// The circuit.
-    pub fn circuit(&self) -> Runnable {
+    /// Returns what all circuits have.
+    #[must_use]
+    pub fn run(&self) -> &Run {
         match self {
-            Scenario::PulseInterpolator(_) => Runnable::PulseInterpolator,
-            Scenario::LinearInterpolator(_) => Runnable::LinearInterpolator,
-            Scenario::LeadAngle(_) => Runnable::LeadAngle,
-            Scenario::ArcGenerator(_) => Runnable::ArcGenerator,
-            Scenario::TrajectoryController(_) => Runnable::TrajectoryController,
-            Scenario::Machine(_) => Runnable::Machine,
+            Scenario::PulseInterpolator(keys) => &keys.run,
+            Scenario::LinearInterpolator(keys) => &keys.run,
+            Scenario::LeadAngle(keys) => &keys.run,
+            Scenario::ArcGenerator(keys) => &keys.run,
+            Scenario::TrajectoryController(keys) => &keys.run,
+            Scenario::Machine(keys) => &keys.run,
         }
+    }
+
+    fn run_mut(&mut self) -> &mut Run {
+        match self {
+            Scenario::PulseInterpolator(keys) => &mut keys.run,
+            Scenario::LinearInterpolator(keys) => &mut keys.run,
+            Scenario::LeadAngle(keys) => &mut keys.run,
+            Scenario::ArcGenerator(keys) => &mut keys.run,
+            Scenario::TrajectoryController(keys) => &mut keys.run,
+            Scenario::Machine(keys) => &mut keys.run,
+        }
+    }
+
+    /// The circuit.
+    #[must_use]
+    pub fn circuit(&self) -> Runnable {
+        self.run().circuit
     }
 
     /// The drawing, part program or position log; in a file relative to that file.
+    #[must_use]
     pub fn input(&self) -> Option<&PathBuf> {
-        match self {
-            Scenario::PulseInterpolator(scenario) => scenario.input.as_ref(),
-            Scenario::LinearInterpolator(scenario) => scenario.input.as_ref(),
-            Scenario::LeadAngle(scenario) => scenario.input.as_ref(),
-            Scenario::ArcGenerator(scenario) => scenario.input.as_ref(),
-            Scenario::TrajectoryController(scenario) => scenario.input.as_ref(),
-            Scenario::Machine(scenario) => scenario.input.as_ref(),
-        }
-    }
-
-    /// The same, to be changed.
-    fn input_mut(&mut self) -> Option<&mut PathBuf> {
-        match self {
-            Scenario::PulseInterpolator(scenario) => scenario.input.as_mut(),
-            Scenario::LinearInterpolator(scenario) => scenario.input.as_mut(),
-            Scenario::LeadAngle(scenario) => scenario.input.as_mut(),
-            Scenario::ArcGenerator(scenario) => scenario.input.as_mut(),
-            Scenario::TrajectoryController(scenario) => scenario.input.as_mut(),
-            Scenario::Machine(scenario) => scenario.input.as_mut(),
-        }
-    }
-
-    /// Where the zeros of a part program are.
-    pub fn program(&self) -> Option<&Program> {
-        match self {
-            Scenario::PulseInterpolator(scenario) => Some(&scenario.program),
-            Scenario::LinearInterpolator(scenario) => Some(&scenario.program),
-            Scenario::LeadAngle(_) => None,
-            Scenario::ArcGenerator(scenario) => Some(&scenario.program),
-            Scenario::TrajectoryController(scenario) => Some(&scenario.program),
-            Scenario::Machine(scenario) => Some(&scenario.program),
-        }
-    }
-
-    fn program_mut(&mut self) -> Option<&mut Program> {
-        match self {
-            Scenario::PulseInterpolator(scenario) => Some(&mut scenario.program),
-            Scenario::LinearInterpolator(scenario) => Some(&mut scenario.program),
-            Scenario::LeadAngle(_) => None,
-            Scenario::ArcGenerator(scenario) => Some(&mut scenario.program),
-            Scenario::TrajectoryController(scenario) => Some(&mut scenario.program),
-            Scenario::Machine(scenario) => Some(&mut scenario.program),
-        }
+        self.run().input.as_ref()
     }
 
     /// Reference clock in Hz.
+    #[must_use]
     pub fn clock_hz(&self) -> u64 {
         match self {
-            Scenario::PulseInterpolator(scenario) => scenario.clock_hz,
-            Scenario::LinearInterpolator(scenario) => scenario.clock_hz,
-            Scenario::LeadAngle(scenario) => scenario.clock_hz,
-            Scenario::ArcGenerator(scenario) => scenario.clock_hz,
-            Scenario::TrajectoryController(scenario) => scenario.clock_hz,
-            Scenario::Machine(scenario) => scenario.clock_hz,
+            Scenario::PulseInterpolator(keys) => keys.settings.clock_hz,
+            Scenario::LinearInterpolator(keys) => keys.settings.clock_hz,
+            Scenario::LeadAngle(keys) => keys.settings.clock_hz,
+            Scenario::ArcGenerator(keys) => keys.settings.clock_hz,
+            Scenario::TrajectoryController(keys) => keys.settings.clock_hz,
+            Scenario::Machine(keys) => keys.settings.clock_hz,
         }
     }
 
     /// True if what the circuit is compared with is played too.
+    #[must_use]
     pub fn beside(&self) -> bool {
-        match self {
-            Scenario::PulseInterpolator(scenario) => scenario.beside,
-            Scenario::LinearInterpolator(scenario) => scenario.beside,
-            Scenario::LeadAngle(scenario) => scenario.beside,
-            Scenario::ArcGenerator(scenario) => scenario.beside,
-            Scenario::TrajectoryController(scenario) => scenario.beside,
-            // Its machines are both its own.
-            Scenario::Machine(_) => false,
-        }
+        self.run().beside
     }
 
-    /// The most ticks that go into the VCD unless a window is asked for.
+    /// Most ticks that go into the VCD unless a window is asked for.
+    #[must_use]
     pub fn vcd_ticks(&self) -> u64 {
-        match self {
-            Scenario::PulseInterpolator(scenario) => scenario.vcd_ticks,
-            Scenario::LinearInterpolator(scenario) => scenario.vcd_ticks,
-            Scenario::LeadAngle(scenario) => scenario.vcd_ticks,
-            Scenario::ArcGenerator(scenario) => scenario.vcd_ticks,
-            Scenario::TrajectoryController(scenario) => scenario.vcd_ticks,
-            Scenario::Machine(scenario) => scenario.vcd_ticks,
-        }
+        self.run().vcd_ticks
     }
 }
 
 /// Circuits that a scenario can run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Runnable {
     /// JP3640909B2.
@@ -166,7 +125,79 @@ pub enum Runnable {
     Machine,
 }
 
+choices!(Runnable);
+
+impl Settings for pulse_interpolator::Settings {
+    const CIRCUIT: Runnable = Runnable::PulseInterpolator;
+    const WITHOUT: &'static [&'static str] = &[];
+}
+
+impl Settings for linear_interpolator::settings::Settings {
+    const CIRCUIT: Runnable = Runnable::LinearInterpolator;
+    const WITHOUT: &'static [&'static str] = &[];
+}
+
+impl Settings for lead_angle::settings::Settings {
+    const CIRCUIT: Runnable = Runnable::LeadAngle;
+    // A position log is no part program.
+    const WITHOUT: &'static [&'static str] = &["program"];
+}
+
+impl Settings for arc_generator::settings::Settings {
+    const CIRCUIT: Runnable = Runnable::ArcGenerator;
+    const WITHOUT: &'static [&'static str] = &[];
+}
+
+impl Settings for trajectory_controller::settings::Settings {
+    const CIRCUIT: Runnable = Runnable::TrajectoryController;
+    const WITHOUT: &'static [&'static str] = &[];
+}
+
+impl Settings for machine::Settings {
+    const CIRCUIT: Runnable = Runnable::Machine;
+    // Its machines are both its own.
+    const WITHOUT: &'static [&'static str] = &["beside"];
+}
+
 impl Runnable {
+    /// All of them.
+    pub const ALL: [Runnable; 6] = [
+        Runnable::PulseInterpolator,
+        Runnable::LinearInterpolator,
+        Runnable::LeadAngle,
+        Runnable::ArcGenerator,
+        Runnable::TrajectoryController,
+        Runnable::Machine,
+    ];
+
+    /// Keys of its scenarios, and the defaults of those that have one.
+    #[must_use]
+    pub fn keys(self) -> (Vec<&'static Key>, toml::Table) {
+        fn of<S: Settings + serde::Serialize>() -> (Vec<&'static Key>, toml::Table) {
+            let mut values = defaults::<Run>();
+            values.extend(defaults::<S>());
+            (Keys::<S>::all(), values)
+        }
+        match self {
+            Runnable::PulseInterpolator => of::<pulse_interpolator::Settings>(),
+            Runnable::LinearInterpolator => of::<linear_interpolator::settings::Settings>(),
+            Runnable::LeadAngle => of::<lead_angle::settings::Settings>(),
+            Runnable::ArcGenerator => of::<arc_generator::settings::Settings>(),
+            Runnable::TrajectoryController => of::<trajectory_controller::settings::Settings>(),
+            Runnable::Machine => of::<machine::Settings>(),
+        }
+    }
+
+    /// Names of the other circuits that have a key.
+    fn others_with(self, key: &str) -> Vec<&'static str> {
+        let has = |of: &Runnable| *of != self && of.keys().0.iter().any(|own| own.name == key);
+        Runnable::ALL
+            .into_iter()
+            .filter(has)
+            .map(Runnable::name)
+            .collect()
+    }
+
     /// The name it has in scenarios.
     #[must_use]
     pub fn name(self) -> &'static str {

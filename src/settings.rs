@@ -1,6 +1,19 @@
 //! Settings of circuits and plants: the checks that they have in common, and what is said of one
 //! that is refused.
 
+mod key;
+mod listing;
+mod renamed;
+mod table;
+
+pub use key::{Key, Shape, Value};
+pub(crate) use key::{choices, names};
+pub use listing::{Row, rows};
+pub(crate) use table::{
+    ALLOWED, beside, defaults, has, next, optional, read_keys, read_table, settings, unknown,
+};
+pub use table::{Table, Within};
+
 use crate::engine::EngineError;
 use crate::hdl::RunError;
 use std::fmt::{self, Display};

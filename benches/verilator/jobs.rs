@@ -18,10 +18,10 @@ use motion_rtl::jobs::arc_generator::record::records;
 use motion_rtl::jobs::lead_angle::job::positioner;
 use motion_rtl::jobs::linear_interpolator::job::plotter;
 use motion_rtl::jobs::linear_interpolator::targets;
-use motion_rtl::jobs::pulse_interpolator::{Settings, compile};
+use motion_rtl::jobs::pulse_interpolator::compile;
+use motion_rtl::jobs::taught::taught;
 use motion_rtl::jobs::trajectory_controller::job as trajectory;
 use motion_rtl::path::pieces::{Speeds, from_drawing, from_points};
-use motion_rtl::plan::MotionLimits;
 use motion_rtl::plant::TwoMassAxis;
 use motion_rtl::scenario::{Loaded, Scenario};
 use std::path::Path;
@@ -89,20 +89,9 @@ pub fn bracket(ticks: u64, clock: Clock) -> Job<Group> {
     let Scenario::PulseInterpolator(scenario) = &whole else {
         unreachable!("the pulse interpolator's")
     };
-    let settings = Settings {
-        clock_hz: scenario.clock_hz,
-        steps_per_mm: scenario.steps_per_mm.clone().expect("given"),
-        motion: MotionLimits {
-            feed_mm_per_min: scenario.feed_mm_per_min,
-            rapid_mm_per_min: scenario.rapid_mm_per_min,
-            corner_mm_per_min: scenario.corner_mm_per_min,
-            acceleration_mm_per_s2: scenario.acceleration_mm_per_s2,
-        },
-        line_unit_ticks: scenario.line_unit_ticks,
-        arc_unit_ticks: scenario.arc_unit_ticks.expect("given"),
-        ..Settings::default()
-    };
-    let (table, _) = compile(&drawing(&whole), &settings).expect("it fits");
+    let drawn = drawing(&whole);
+    let settings = scenario.settings.settings(&drawn);
+    let (table, _) = compile(&drawn, &settings).expect("it fits");
     let circuit = jobs::pulse_interpolator::job::group(&table, Variant::Safe);
     let mut recorder = Recorder::new(&circuit, ticks);
     jobs::pulse_interpolator::job::play(&circuit, &table, &mut recorder).expect("nobody objects");
@@ -155,11 +144,11 @@ pub fn plotting(ticks: u64, clock: Clock) -> Job<Controller> {
     let Scenario::LinearInterpolator(scenario) = &whole else {
         unreachable!("the linear interpolator's")
     };
-    let settings = scenario.settings();
-    let targets = targets::compile(&drawing(&whole), &settings).expect("it fits");
-    let circuit = plotter(&settings);
+    let settings = &scenario.settings;
+    let targets = targets::compile(&drawing(&whole), settings).expect("it fits");
+    let circuit = plotter(settings);
     let mut recorder = Recorder::new(&circuit, ticks);
-    jobs::linear_interpolator::job::play(&circuit, &targets.targets, &settings, &mut recorder)
+    jobs::linear_interpolator::job::play(&circuit, &targets.targets, settings, &mut recorder)
         .expect("nobody objects");
     let stimulus = recorder.finish();
     Job { circuit, stimulus }
@@ -167,13 +156,13 @@ pub fn plotting(ticks: u64, clock: Clock) -> Job<Controller> {
 
 /// The turntable's positionings.
 pub fn turntable(ticks: u64, clock: Clock) -> Job<Compensator> {
-    let Scenario::LeadAngle(scenario) = scenario("turntable", clock) else {
+    let Scenario::LeadAngle(scenario) = &scenario("turntable", clock) else {
         unreachable!("the lead-angle compensator's")
     };
-    let settings = scenario.settings();
-    let circuit = positioner(&settings);
+    let settings = &scenario.settings;
+    let circuit = positioner(settings);
     let mut recorder = Recorder::new(&circuit, ticks);
-    jobs::lead_angle::job::play(&circuit, &settings, &mut recorder).expect("nobody objects");
+    jobs::lead_angle::job::play(&circuit, settings, &mut recorder).expect("nobody objects");
     let stimulus = recorder.finish();
     Job { circuit, stimulus }
 }
@@ -183,11 +172,11 @@ pub fn weld(ticks: u64, clock: Clock) -> Job<ArcGenerator> {
     let Scenario::ArcGenerator(scenario) = scenario("weld", clock) else {
         unreachable!("the arc generator's")
     };
-    let (settings, widths) = (scenario.settings(), arc_generator::Widths::FULL);
-    let taught = scenario.taught().expect("it is taught");
-    let pieces = from_points(scenario.start_mm, &taught, Speeds::from(&settings));
+    let (settings, widths) = (scenario.settings, arc_generator::Widths::FULL);
+    let pieces = taught(None, &settings.piece, false).expect("it is taught");
+    let pieces = from_points(settings.start_mm, &pieces, Speeds::from(&settings));
     let timing = settings.timing(&widths).expect("it fits");
-    let prepared = prepare(scenario.start_mm, &pieces.expect("arcs"), &timing).expect("it fits");
+    let prepared = prepare(settings.start_mm, &pieces.expect("arcs"), &timing).expect("it fits");
     let (scale, rounding) = (settings.counts_per_mm, settings.rounding);
     let records = records(&prepared, scale, &widths, rounding).expect("it fits");
     let sample_ticks = settings.sample_ticks(&widths).expect("it fits");
@@ -205,12 +194,12 @@ pub fn pocket(ticks: u64, clock: Clock) -> Job<TrajectoryController> {
     let Scenario::TrajectoryController(scenario) = &whole else {
         unreachable!("the trajectory controller's")
     };
-    let settings = scenario.settings();
+    let settings = &scenario.settings;
     let drawing = drawing(&whole);
-    let pieces = from_drawing(&drawing, Speeds::from(&settings)).expect("arcs");
-    let machines = scenario.machines(3).expect("three");
+    let pieces = from_drawing(&drawing, Speeds::from(settings)).expect("arcs");
+    let machines = settings.machines(3).expect("three");
     let widths = trajectory_controller::Widths::FULL;
-    let program = trajectory::Program::of(drawing.start, &pieces, &settings, &machines, &widths);
+    let program = trajectory::Program::of(drawing.start, &pieces, settings, &machines, &widths);
     let tick_s = 1.0 / settings.clock_hz as f64;
     let plants = machines
         .iter()
@@ -230,11 +219,11 @@ pub fn machine(ticks: u64, clock: Clock) -> Job<Machine> {
     let Scenario::Machine(scenario) = &whole else {
         unreachable!("the machine's")
     };
-    let settings = scenario.settings();
-    let program = jobs::machine::Program::of(&drawing(&whole), &settings).expect("it fits");
-    let circuit = jobs::machine::job::machine(&settings);
+    let settings = &scenario.settings;
+    let program = jobs::machine::Program::of(&drawing(&whole), settings).expect("it fits");
+    let circuit = jobs::machine::job::machine(settings);
     let mut recorder = Recorder::new(&circuit, ticks);
-    jobs::machine::job::play(&circuit, &program, &settings, &mut recorder).expect("nobody objects");
+    jobs::machine::job::play(&circuit, &program, settings, &mut recorder).expect("nobody objects");
     let stimulus = recorder.finish();
     Job { circuit, stimulus }
 }

@@ -56,6 +56,11 @@ Examples:
   motion-rtl list compensator
   motion-rtl list --json";
 
+pub const KEYS: &str = "\
+Examples:
+  motion-rtl keys lead_angle
+  motion-rtl keys lead_angle --json-schema >lead_angle.schema.json";
+
 pub const CLEAN: &str = "\
 Examples:
   motion-rtl clean build --dry-run

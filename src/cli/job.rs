@@ -30,30 +30,29 @@ impl Job {
     /// Reads and compiles the input of a scenario.
     pub fn prepare(source: Source) -> Result<Self, Failure> {
         Ok(match source.loaded.scenario.clone() {
-            Scenario::PulseInterpolator(scenario)
-                if !scenario.pattern.is_empty() && !scenario.group.is_empty() =>
-            {
-                Job::Groups(pulse::patterns::groups::Job::prepare(source, &scenario)?.into())
+            Scenario::PulseInterpolator(scenario) if scenario.settings.pattern.is_empty() => {
+                Job::Pulse(pulse::Job::prepare(source, true)?.into())
             }
-            Scenario::PulseInterpolator(scenario) if !scenario.pattern.is_empty() => {
-                Job::Patterns(pulse::patterns::Job::prepare(source, &scenario)?.into())
+            Scenario::PulseInterpolator(scenario) if scenario.settings.group.is_empty() => {
+                Job::Patterns(pulse::patterns::Job::prepare(source, &scenario.settings)?.into())
             }
-            Scenario::PulseInterpolator(_) => Job::Pulse(pulse::Job::prepare(source, true)?.into()),
+            Scenario::PulseInterpolator(scenario) => Job::Groups(
+                pulse::patterns::groups::Job::prepare(source, &scenario.settings)?.into(),
+            ),
             Scenario::LinearInterpolator(scenario) => {
-                Job::Linear(linear::Job::prepare(source, scenario.settings())?.into())
+                Job::Linear(linear::Job::prepare(source, scenario.settings)?.into())
             }
             Scenario::LeadAngle(scenario) => {
-                let (settings, columns) = (scenario.settings(), scenario.columns());
-                Job::LeadAngle(lead_angle::Job::prepare(source, settings, &columns)?.into())
+                Job::LeadAngle(lead_angle::Job::prepare(source, scenario.settings)?.into())
             }
             Scenario::ArcGenerator(scenario) => {
-                Job::Arc(arc::Job::prepare(source, &scenario)?.into())
+                Job::Arc(arc::Job::prepare(source, scenario.settings)?.into())
             }
             Scenario::TrajectoryController(scenario) => {
-                Job::Trajectory(trajectory::Job::prepare(source, &scenario)?.into())
+                Job::Trajectory(trajectory::Job::prepare(source, scenario.settings)?.into())
             }
             Scenario::Machine(scenario) => {
-                Job::Machine(machine::Job::prepare(source, scenario.settings())?.into())
+                Job::Machine(machine::Job::prepare(source, scenario.settings)?.into())
             }
         })
     }

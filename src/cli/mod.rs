@@ -13,6 +13,7 @@ mod files;
 mod given;
 mod help;
 mod job;
+pub mod keys;
 mod lead_angle;
 mod limits;
 mod linear;

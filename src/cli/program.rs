@@ -52,6 +52,9 @@ enum Command {
     /// Lists circuits with ports and widths, and scenarios; or a circuit with what it is made of.
     #[command(after_help = help::LIST)]
     List(super::list::Arguments),
+    /// Lists the keys of a job's scenarios: types, units, defaults, ranges and meanings.
+    #[command(after_help = help::KEYS)]
+    Keys(super::keys::Arguments),
     /// Removes the files that runs have written into a directory, after naming them.
     #[command(after_help = help::CLEAN)]
     Clean(super::clean::Arguments),
@@ -165,6 +168,7 @@ fn run(command: Option<Command>) -> Result<(), Failure> {
         Some(Command::Compare(arguments)) => super::compare::compare(&arguments),
         Some(Command::Plan(arguments)) => super::plan::plan(&arguments),
         Some(Command::List(arguments)) => super::list::list(&arguments),
+        Some(Command::Keys(arguments)) => super::keys::keys(&arguments),
         Some(Command::Clean(arguments)) => super::clean::clean(&arguments),
         #[cfg(feature = "shell")]
         Some(Command::Completions(arguments)) => super::shell::completions(&arguments),

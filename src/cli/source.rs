@@ -9,7 +9,7 @@ use motion_rtl::jobs::pulse_interpolator::Table;
 use motion_rtl::jobs::pulse_interpolator::table::read;
 use motion_rtl::nearest::nearest;
 use motion_rtl::plan::{FEED_RANGE, PlanError};
-use motion_rtl::scenario::{Loaded, Program, Runnable, Scenario};
+use motion_rtl::scenario::{Loaded, Runnable, Scenario};
 use motion_rtl::settings::{Place, SettingError, tidy};
 use std::path::{Path, PathBuf};
 
@@ -47,18 +47,16 @@ pub struct Input {
 impl Input {
     /// How a drawing or a part program is read.
     fn options(&self, loaded: &Loaded) -> Result<Options, Fault> {
-        let zeros = loaded.scenario.program().map(Program::zeros).transpose();
+        let zeros = loaded.scenario.run().program.zeros();
         let fourth = match &loaded.scenario {
-            Scenario::TrajectoryController(scenario) => scenario.has_fourth(),
+            Scenario::TrajectoryController(keys) => keys.settings.has_fourth(),
             _ => false,
         };
         Ok(Options {
             lenient: self.lenient,
             strict: self.strict,
             most_lines: self.most_lines.unwrap_or(Options::MOST_LINES),
-            zeros: zeros
-                .map_err(|error| loaded.refuse(error))?
-                .unwrap_or_default(),
+            zeros: zeros.map_err(|error| loaded.refuse(error))?,
             subroutines: self.directories(loaded)?,
             splines: loaded.scenario.circuit() == Runnable::TrajectoryController,
             fourth,
@@ -80,8 +78,7 @@ impl Input {
                 allowed(),
             ));
         }
-        let keys = loaded.scenario.program();
-        let keys = keys.map_or(&[][..], |program| &program.subroutine_path);
+        let keys = &loaded.scenario.run().program.subroutine_path[..];
         if let Some(path) = keys.iter().find(|path| !path.is_dir()) {
             let error = SettingError::new("subroutine_path", problem(path), allowed());
             return Err(loaded.refuse(error.at(Place::Table("program"))));

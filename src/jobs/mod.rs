@@ -8,4 +8,5 @@ pub mod lead_angle;
 pub mod linear_interpolator;
 pub mod machine;
 pub mod pulse_interpolator;
+pub mod taught;
 pub mod trajectory_controller;

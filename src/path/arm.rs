@@ -22,8 +22,8 @@
 use super::vector::{add, sub};
 use crate::input::Point;
 use crate::plan::digits::{round_down, round_up};
-use crate::settings::{Place, SettingError, within};
-use serde::Deserialize;
+use crate::settings::{Place, SettingError, choices, settings};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;
 
@@ -40,8 +40,8 @@ const SINGULAR_RANGE_DEG: RangeInclusive<f64> = 0.01..=45.0;
 /// Allowed counts per turn.
 const COUNTS_RANGE: RangeInclusive<u32> = 1..=1 << 28;
 
-/// Side of the line from shoulder to hand on which the elbow is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+/// On which side of the line from shoulder to hand the elbow is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Elbow {
     /// Above the line.
@@ -51,22 +51,27 @@ pub enum Elbow {
     Down,
 }
 
-/// Arm geometry.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Arm {
-    /// Position of the shoulder in mm.
-    pub shoulder_mm: Point,
-    /// Length from shoulder to elbow, in mm.
-    pub upper_mm: f64,
-    /// Length from elbow to hand, in mm.
-    pub fore_mm: f64,
-    /// Side of the elbow.
-    pub elbow: Elbow,
-    /// Angle in degrees within which a pose counts as singular: of the elbow from straight or
-    /// folded, or of the stretched arm from the vertical through the shoulder.
-    pub singular_deg: f64,
-    /// Counts per turn of a joint.
-    pub counts_per_rev: u32,
+choices!(Elbow);
+
+settings! {
+    /// An arm with three joints.
+    #[derive(Copy)]
+    pub struct Arm {
+        /// Position of its shoulder.
+        pub shoulder_mm: Point = [0.0; 3], in -*LENGTH_RANGE_MM.end()..=*LENGTH_RANGE_MM.end();
+        /// Length from shoulder to elbow.
+        pub upper_mm [required]: f64 = 0.0, in LENGTH_RANGE_MM;
+        /// Length from elbow to hand.
+        pub fore_mm [required]: f64 = 0.0, in LENGTH_RANGE_MM;
+        /// Side of the line from shoulder to hand on which the elbow is.
+        pub elbow: Elbow = Elbow::default();
+        /// Margin to singular poses: a pose is refused where the elbow is nearer than this to
+        /// straight or folded, or the hand as near to the vertical through the shoulder as the
+        /// stretched arm leant by it.
+        pub singular_deg: f64 = 1.0, in SINGULAR_RANGE_DEG;
+        /// Counts per revolution of a joint.
+        pub counts_per_rev: u32 = 1 << 20, in COUNTS_RANGE;
+    }
 }
 
 /// Pose that the arm cannot take, or that is too close to a singular one.
@@ -119,19 +124,7 @@ impl Arm {
     /// # Errors
     /// Returns an error that names the first field at fault, its value and the allowed range.
     pub fn validate(&self) -> Result<(), SettingError> {
-        self.checked()
-            .map_err(|error| error.at(Place::Table("arm")))
-    }
-
-    fn checked(&self) -> Result<(), SettingError> {
-        let far = *LENGTH_RANGE_MM.end();
-        for value in self.shoulder_mm {
-            within("shoulder_mm", value, &(-far..=far))?;
-        }
-        within("upper_mm", self.upper_mm, &LENGTH_RANGE_MM)?;
-        within("fore_mm", self.fore_mm, &LENGTH_RANGE_MM)?;
-        within("singular_deg", self.singular_deg, &SINGULAR_RANGE_DEG)?;
-        within("counts_per_rev", self.counts_per_rev, &COUNTS_RANGE)
+        self.ranges().map_err(|error| error.at(Place::Table("arm")))
     }
 
     /// Returns the joint angles for the hand at `point`, in radians; base from −π to π.

@@ -38,7 +38,7 @@ pub enum Reason {
     #[error("missing")]
     NoSpeed,
     /// The speed is not positive.
-    #[error("is {} mm/s", tidy(*speed))]
+    #[error("is {} mm/min", tidy(60.0 * speed))]
     Speed {
         /// Speed in mm/s.
         speed: f64,
@@ -76,8 +76,8 @@ pub enum Reason {
     },
     /// A blend would extend along the arc by more than 60°.
     #[error(
-        "at {} mm/s a blend reaches {} mm along an arc of {} mm radius",
-        tidy(*speed),
+        "at {} mm/min a blend reaches {} mm along an arc of {} mm radius",
+        tidy(60.0 * speed),
         tidy(*chord),
         tidy(*radius)
     )]
@@ -93,8 +93,8 @@ pub enum Reason {
     },
     /// The blends at both ends overlap.
     #[error(
-        "at {} mm/s the blends at its ends take more than the piece, {} mm",
-        tidy(*speed),
+        "at {} mm/min the blends at its ends take more than the piece, {} mm",
+        tidy(60.0 * speed),
         tidy(*length)
     )]
     Overlap {
@@ -106,7 +106,7 @@ pub enum Reason {
         most: f64,
     },
     /// The speed is below the resolution of the linear interpolator.
-    #[error("at {} mm/s the axis with the longer way goes too few counts in a scan", tidy(*speed))]
+    #[error("at {} mm/min the axis with the longer way goes too few counts in a scan", tidy(60.0 * speed))]
     Slow {
         /// Requested speed in mm/s.
         speed: f64,
@@ -114,7 +114,7 @@ pub enum Reason {
         least: f64,
     },
     /// The piece takes more samples than a record can hold.
-    #[error("takes {} samples at {} mm/s", tidy(*samples), tidy(*speed))]
+    #[error("takes {} samples at {} mm/min", tidy(*samples), tidy(60.0 * speed))]
     Samples {
         /// Requested speed in mm/s.
         speed: f64,
@@ -175,7 +175,7 @@ impl Reason {
             | Reason::Tight { .. }
             | Reason::Overlap { .. }
             | Reason::Slow { .. }
-            | Reason::Samples { .. } => "speed_mm_per_s",
+            | Reason::Samples { .. } => "feed_mm_per_min",
             Reason::Via { .. }
             | Reason::Circle(CircleError::Collinear { .. })
             | Reason::Circle(CircleError::Coincident {
@@ -213,10 +213,7 @@ impl Reason {
     /// Returns the allowed values.
     #[must_use]
     pub fn allowed(&self) -> String {
-        let at_most = |speed: &f64| {
-            let least = round_down(*speed);
-            format!("at most {least} mm/s (F{})", round_down(60.0 * least))
-        };
+        let at_most = |speed: &f64| format!("at most {} mm/min", round_down(60.0 * speed));
         match self {
             Reason::Empty => "one piece or more".into(),
             Reason::NoSpeed => "a speed of the piece, or one for all".into(),
@@ -241,9 +238,8 @@ impl Reason {
             }
             Reason::Overlap { most, .. } => format!("{}, or shorter blends", at_most(most)),
             Reason::Slow { least, .. } => {
-                let least = round_up(*least);
-                let feed = round_up(60.0 * least);
-                format!("at least {least} mm/s (F{feed}) in this direction, or a longer scan")
+                let least = round_up(60.0 * least);
+                format!("at least {least} mm/min in this direction, or a longer scan")
             }
             Reason::Samples { most, .. } => {
                 format!("at most {most} samples: faster, shorter, or sampled less often")

@@ -23,7 +23,7 @@ pub use profile::{Plan, Segment};
 pub use sampler::{Sample, Sampler};
 
 use crate::input::REACH_MM;
-use crate::settings::{SettingError, tidy, within};
+use crate::settings::{SettingError, settings, tidy};
 
 /// Allowed feed in mm/min.
 pub const FEED_RANGE: std::ops::RangeInclusive<f64> = 1e-3..=1e7;
@@ -34,52 +34,18 @@ pub const ACCELERATION_RANGE: std::ops::RangeInclusive<f64> = 1e-3..=1e9;
 /// Greatest absolute value of an arc centre's coordinate, in millimetres.
 pub const CENTRE_REACH_MM: f64 = 1e3 * REACH_MM;
 
-/// Limits of the motion along a path.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MotionLimits {
-    /// Feed of moves that set none, in mm/min.
-    pub feed_mm_per_min: f64,
-    /// Speed of rapid moves, in mm/min.
-    pub rapid_mm_per_min: f64,
-    /// Greatest sudden change of the velocity vector at a junction, in mm/min; 0 stops at every
-    /// corner.
-    pub corner_mm_per_min: f64,
-    /// Greatest tangential and greatest centripetal acceleration, in mm/s².
-    pub acceleration_mm_per_s2: f64,
-}
-
-impl Default for MotionLimits {
-    fn default() -> Self {
-        Self {
-            feed_mm_per_min: 1200.0,
-            rapid_mm_per_min: 3000.0,
-            corner_mm_per_min: 60.0,
-            acceleration_mm_per_s2: 500.0,
-        }
-    }
-}
-
-impl MotionLimits {
-    /// Checks every limit.
-    ///
-    /// # Errors
-    ///
-    /// Returns an error that names the first limit outside its range or not a number.
-    pub fn validate(&self) -> Result<(), SettingError> {
-        let corners = 0.0..=*FEED_RANGE.end();
-        let limits = [
-            ("feed_mm_per_min", self.feed_mm_per_min, FEED_RANGE),
-            ("rapid_mm_per_min", self.rapid_mm_per_min, FEED_RANGE),
-            ("corner_mm_per_min", self.corner_mm_per_min, corners),
-            (
-                "acceleration_mm_per_s2",
-                self.acceleration_mm_per_s2,
-                ACCELERATION_RANGE,
-            ),
-        ];
-        limits
-            .into_iter()
-            .try_for_each(|(field, value, allowed)| within(field, value, &allowed))
+settings! {
+    /// Speeds and acceleration of a path.
+    #[derive(Copy)]
+    pub struct MotionLimits {
+        /// Feed of the moves that set none.
+        pub feed_mm_per_min: f64 = 1200.0, in FEED_RANGE;
+        /// Speed with the pen up, and of G0.
+        pub rapid_mm_per_min: f64 = 3000.0, in FEED_RANGE;
+        /// Largest sudden change of the velocity vector at a corner; 0 stops at every corner.
+        pub corner_mm_per_min: f64 = 60.0, in 0.0..=*FEED_RANGE.end();
+        /// Largest tangential and largest centripetal acceleration.
+        pub acceleration_mm_per_s2: f64 = 500.0, in ACCELERATION_RANGE;
     }
 }
 

@@ -86,7 +86,7 @@ impl<'d> Plan<'d> {
     ///
     /// Returns a [`PlanError`] if a limit or the drawing contains a value that cannot be planned.
     pub fn new(drawing: &'d Drawing, limits: &MotionLimits) -> Result<Self, PlanError> {
-        limits.validate()?;
+        limits.ranges()?;
         geometry::check(drawing)?;
         let acceleration = limits.acceleration_mm_per_s2;
         let (mut segments, lengths) = limit_speeds(drawing, limits);

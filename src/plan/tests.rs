@@ -281,7 +281,7 @@ fn refuses_what_it_cannot_plan_with() {
         for bad in [-1.0, f64::NAN, f64::INFINITY] {
             let mut limits = LIMITS;
             set(&mut limits, bad);
-            let message = limits.validate().unwrap_err().to_string();
+            let message = limits.ranges().unwrap_err().to_string();
             assert!(
                 message.starts_with(&format!("{field}: is {bad}; allowed")),
                 "{message}"

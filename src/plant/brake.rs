@@ -81,13 +81,13 @@ impl BrakedBody {
     ///
     /// Returns a [`SettingError`] that names the parameter, or `tick_s`, that is out of range.
     pub fn new(parameters: &BodyParameters, tick_s: f64) -> Result<Self, SettingError> {
-        parameters.validate()?;
+        parameters.ranges()?;
         check_tick(tick_s)?;
         Ok(BrakedBody {
             parameters: *parameters,
             encoder: Encoder::default(),
             tick_s,
-            load: Load::NONE,
+            load: Load::default(),
             position_counts: 0.0,
             speed_counts_per_s: 0.0,
             signal_s: 0.0,
@@ -104,7 +104,7 @@ impl BrakedBody {
     ///
     /// Returns a [`SettingError`] that names the factor that is out of range.
     pub fn set_load(&mut self, load: Load) -> Result<(), SettingError> {
-        load.validate()?;
+        load.ranges()?;
         self.load = load;
         Ok(())
     }

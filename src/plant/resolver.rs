@@ -1,6 +1,6 @@
 //! Resolver in amplitude mode with A/D converters: one winding is excited, two are read.
 
-use crate::settings::{SettingError, within};
+use crate::settings::settings;
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
@@ -9,37 +9,16 @@ pub const POLE_PAIRS_RANGE: RangeInclusive<u32> = 1..=64;
 /// Allowed offsets and mismatches, as parts of the amplitude.
 pub const WINDING_RANGE: RangeInclusive<f64> = -0.1..=0.1;
 
-/// Imperfections of a resolver, and its pitch.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ResolverParameters {
-    /// Number of pitches per turn.
-    pub pole_pairs: u32,
-    /// Offset of the sine winding's channel at an angle of 0, as a part of the amplitude.
-    pub sine_offset: f64,
-    /// Excess amplitude of the sine winding over the other one, as a part of the amplitude.
-    pub gain_mismatch: f64,
-}
-
-impl Default for ResolverParameters {
-    /// Returns four pole pairs, and ideal windings.
-    fn default() -> Self {
-        ResolverParameters {
-            pole_pairs: 4,
-            sine_offset: 0.0,
-            gain_mismatch: 0.0,
-        }
-    }
-}
-
-impl ResolverParameters {
-    /// Checks every field.
-    ///
-    /// # Errors
-    /// Returns an error that names the first field outside its range or not a number.
-    pub fn validate(&self) -> Result<(), SettingError> {
-        within("pole_pairs", self.pole_pairs, &POLE_PAIRS_RANGE)?;
-        within("sine_offset", self.sine_offset, &WINDING_RANGE)?;
-        within("gain_mismatch", self.gain_mismatch, &WINDING_RANGE)
+settings! {
+    /// Pitch of a resolver, and errors of its windings.
+    #[derive(Copy)]
+    pub struct ResolverParameters {
+        /// Pole pairs of a resolver, the pitches of a turn; each has whole counts.
+        pub pole_pairs: u32 = 4, in POLE_PAIRS_RANGE;
+        /// Offset of a resolver's sine channel at an angle of 0, as a part of the amplitude.
+        pub sine_offset: f64 = 0.0, in WINDING_RANGE;
+        /// Excess of a resolver's sine amplitude over the cosine amplitude, as a part of it.
+        pub gain_mismatch: f64 = 0.0, in WINDING_RANGE;
     }
 }
 

@@ -9,8 +9,9 @@
 //! next tooth: it has lost four.
 
 use super::parameters::{POSITIVE, check_tick};
-use crate::settings::{SettingError, within};
+use crate::settings::{SettingError, Table, settings};
 use std::f64::consts::{FRAC_PI_2, TAU};
+use std::ops::RangeInclusive;
 
 /// Full steps from one tooth of the rotor to the next.
 const TOOTH: f64 = 4.0;
@@ -21,53 +22,38 @@ const MOST_PARTS: f64 = 1000.0;
 /// Number of free oscillations in which a rotor comes to rest, if it does.
 const SWINGS: f64 = 200.0;
 
-/// Parameters of step motor, driver and load of one axis.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StepMotorParameters {
-    /// Greatest torque at standstill, in N·m.
-    pub holding_torque_nm: f64,
-    /// Inertia of rotor and load, in kg·m².
-    pub inertia_kg_m2: f64,
-    /// Viscous damping, in N·m per rad/s.
-    pub damping_nm_s: f64,
-    /// Coulomb friction, in N·m; 0 for none.
-    pub friction_nm: f64,
-    /// Full steps per turn: 200 for 1.8°.
-    pub full_steps_per_rev: u32,
-    /// Driver steps per full step.
-    pub microsteps: u32,
-}
+/// Amounts that may be none.
+const FROM_ZERO: RangeInclusive<f64> = 0.0..=*POSITIVE.end();
 
-impl Default for StepMotorParameters {
-    /// Returns a 57 mm motor with its load, in full steps.
-    fn default() -> Self {
+settings! {
+    /// Step motor, driver and load of one axis. Default: a motor of 57 mm with its load, in full
+    /// steps.
+    #[derive(Copy)]
+    pub struct StepMotorParameters {
+        /// Largest torque at standstill.
+        pub holding_torque_nm [required]: f64 = 1.0, in POSITIVE;
+        /// Inertia of rotor and load.
+        pub inertia_kg_m2 [required]: f64 = 5e-5, in POSITIVE;
+        /// Torque per speed, viscous.
+        pub damping_nm_s: f64 = 0.0, in FROM_ZERO;
+        /// Coulomb friction; 0 for none.
+        pub friction_nm: f64 = 0.0, in FROM_ZERO;
+        /// Full steps per revolution: 200 are of 1.8°.
+        pub full_steps_per_rev: u32 = 200, in 4..=10_000;
+        /// Steps of the driver per full step.
+        pub microsteps: u32 = 1, in 1..=1024;
+    }
+    default {
         StepMotorParameters {
-            holding_torque_nm: 1.0,
-            inertia_kg_m2: 5e-5,
             damping_nm_s: 5e-3,
             friction_nm: 0.03,
-            full_steps_per_rev: 200,
-            microsteps: 1,
+            ..Table::initial()
         }
     }
 }
 
 impl StepMotorParameters {
-    /// Checks every field.
-    ///
-    /// # Errors
-    /// Returns a [`SettingError`] that names the first field outside its range or not a number.
-    pub fn validate(&self) -> Result<(), SettingError> {
-        let least = 0.0..=*POSITIVE.end();
-        within("holding_torque_nm", self.holding_torque_nm, &POSITIVE)?;
-        within("inertia_kg_m2", self.inertia_kg_m2, &POSITIVE)?;
-        within("damping_nm_s", self.damping_nm_s, &least)?;
-        within("friction_nm", self.friction_nm, &least)?;
-        within("full_steps_per_rev", self.full_steps_per_rev, &(4..=10_000))?;
-        within("microsteps", self.microsteps, &(1..=1024))
-    }
-
-    /// Returns the full steps per radian.
+    /// Full steps of a radian.
     fn full_steps_per_rad(&self) -> f64 {
         f64::from(self.full_steps_per_rev) / TAU
     }
@@ -108,7 +94,7 @@ impl StepMotor {
     /// Returns a [`SettingError`] that names the parameter, or `tick_s`, that is out of range; or
     /// the inertia, if the rotor oscillates or slows by too much within a tick.
     pub fn new(parameters: &StepMotorParameters, tick_s: f64) -> Result<Self, SettingError> {
-        parameters.validate()?;
+        parameters.ranges()?;
         check_tick(tick_s)?;
         let inertia = parameters.inertia_kg_m2;
         let per_inertia = parameters.full_steps_per_rad() / inertia;

@@ -99,7 +99,7 @@ impl TwoMassAxis {
     /// Returns a [`SettingError`] that names the parameter, or `tick_s`, that is out of range. A
     /// tick longer than [`TwoMassParameters::longest_tick_s`] is out of range too.
     pub fn new(parameters: &TwoMassParameters, tick_s: f64) -> Result<Self, SettingError> {
-        parameters.validate()?;
+        parameters.ranges()?;
         check_tick(tick_s)?;
         let fastest = parameters.fastest_per_s();
         within("tick_s", tick_s, &(0.0..=parameters.longest_tick_s()))?;

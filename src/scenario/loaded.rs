@@ -43,18 +43,18 @@ impl Loaded {
         let text = read_string_of(path, LARGEST, "a scenario in TOML")?;
         let mut loaded = Self::parse(&name, &text, sets)?;
         let given = loaded.overrides("input");
-        if let (Some(input), Some(directory)) = (loaded.scenario.input_mut(), path.parent())
+        let run = loaded.scenario.run_mut();
+        if let (Some(input), Some(directory)) = (&mut run.input, path.parent())
             && !given
         {
             *input = directory.join(&*input);
         }
         let given = loaded.overrides("program") || loaded.overrides("program.subroutine_path");
-        if let (Some(program), Some(directory)) = (loaded.scenario.program_mut(), path.parent())
-            && !given
-        {
-            for path in &mut program.subroutine_path {
-                *path = directory.join(&*path);
-            }
+        let paths = &mut loaded.scenario.run_mut().program.subroutine_path;
+        if let Some(directory) = path.parent().filter(|_| !given) {
+            paths
+                .iter_mut()
+                .for_each(|path| *path = directory.join(&*path));
         }
         Ok(loaded.with_tables_beside(path))
     }
@@ -63,11 +63,11 @@ impl Loaded {
     #[must_use]
     pub fn with_tables_beside(mut self, path: &Path) -> Self {
         let given = self.overrides("pattern");
-        if let (Scenario::PulseInterpolator(scenario), Some(directory)) =
+        if let (Scenario::PulseInterpolator(keys), Some(directory)) =
             (&mut self.scenario, path.parent())
             && !given
         {
-            for pattern in &mut scenario.pattern {
+            for pattern in &mut keys.settings.pattern {
                 pattern.table = directory.join(&pattern.table);
             }
         }
@@ -124,29 +124,38 @@ impl Loaded {
     }
 
     fn build(file: &str, text: &str, sets: &[String]) -> Result<Self, Fault> {
-        let mut loaded = Loaded {
-            scenario: errors::read(file, text)?,
-            file: None,
-            text: text.to_owned(),
-            overridden: Vec::new(),
-        };
-        let parsed: Result<Table, _> = text.parse();
-        let mut table = parsed.map_err(|error| errors::fault(file, text, &error))?;
         let mut pairs = sets
             .iter()
             .map(|set| key_value(set))
             .collect::<Result<Vec<_>, _>>()?;
         // The circuit decides which other keys there are.
         pairs.sort_by_key(|(key, _)| *key != CIRCUIT);
-        for (key, value) in pairs {
+        let circuit = pairs.iter().rfind(|(key, _)| *key == CIRCUIT);
+        let circuit = circuit.and_then(|(_, circuit)| circuit.clone().try_into().ok());
+        let mut read = errors::read(file, text, circuit)?;
+        let mut overridden = Vec::new();
+        let parsed: Result<Table, _> = text.parse();
+        let mut table = parsed.map_err(|error| errors::fault(file, text, &error))?;
+        let mut pairs = pairs.into_iter().peekable();
+        while let Some((key, value)) = pairs.next() {
             insert(&mut table, key, value)?;
+            overridden.push(key.to_owned());
+            // Another circuit may need all of them.
+            if circuit.is_some() && pairs.peek().is_some() {
+                continue;
+            }
             // As text once more: reading a table from a tree as well is a second copy of all readers.
             let text = table.to_string();
             let table = DeTable::parse(&text).map_err(|error| errors::fault(SET, &text, &error))?;
-            loaded.scenario = scenario(&table).map_err(|error| set_fault(key, &error))?;
-            loaded.overridden.push(key.to_owned());
+            read = Some(scenario(&table).map_err(|error| set_fault(key, &error))?);
         }
-        Ok(loaded)
+        let no_scenario = || Fault::new(file, 0, "file", "is no scenario", "a scenario in TOML");
+        Ok(Loaded {
+            scenario: read.ok_or_else(no_scenario)?,
+            file: None,
+            text: text.to_owned(),
+            overridden,
+        })
     }
 
     /// Whether it was made for an input given by itself.
@@ -319,18 +328,14 @@ fn insert(table: &mut Table, key: &str, value: Value) -> Result<(), Fault> {
 /// What an override makes wrong: of the key, or of one within its value.
 fn set_fault(key: &str, error: &Located) -> Fault {
     let mut field = String::new();
-    let mut inner = false;
     for segment in error.path() {
         match segment {
             Segment::Seq { index } => field += &format!(" {index}:"),
             Segment::Map { key } => {
-                inner = !field.is_empty();
-                field += if field.ends_with(':') {
-                    " "
-                } else if inner {
-                    "."
-                } else {
-                    ""
+                field += match field.as_str() {
+                    "" => "",
+                    list if list.ends_with(':') => " ",
+                    _ => ".",
                 };
                 field += key;
             }
@@ -347,7 +352,7 @@ fn set_fault(key: &str, error: &Located) -> Fault {
         };
         return Fault::new(SET, 0, field, "missing", NO_DEFAULT);
     }
-    let field = if inner { &field } else { key };
+    let field = if field.is_empty() { key } else { &field };
     let (problem, allowed) = of_lists(field, message).unwrap_or_else(|| split(message));
     Fault::new(SET, 0, field, problem, allowed)
 }

@@ -1,56 +1,42 @@
 //! The keys of the table `[program]`, which all circuits have whose input is a part program.
 
-use super::exactly::exactly;
 use crate::input::{Point, REACH_MM, Zeros};
-use crate::settings::{Place, SettingError};
-use serde::Deserialize;
+use crate::settings::{Place, SettingError, settings};
 use std::path::PathBuf;
 
-/// Where the zeros and the reference points of a part program are, from the machine's zero, and its
-/// subroutines.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Program {
-    /// Reference point of G28.
-    #[serde(deserialize_with = "exactly")]
-    pub g28_mm: Point,
-    /// Reference point of G30.
-    #[serde(deserialize_with = "exactly")]
-    pub g30_mm: Point,
-    /// Zero of G54, which is in force at the beginning.
-    #[serde(deserialize_with = "exactly")]
-    pub g54_mm: Point,
-    /// Zero of G55.
-    #[serde(deserialize_with = "exactly")]
-    pub g55_mm: Point,
-    /// Zero of G56.
-    #[serde(deserialize_with = "exactly")]
-    pub g56_mm: Point,
-    /// Zero of G57.
-    #[serde(deserialize_with = "exactly")]
-    pub g57_mm: Point,
-    /// Zero of G58.
-    #[serde(deserialize_with = "exactly")]
-    pub g58_mm: Point,
-    /// Zero of G59.
-    #[serde(deserialize_with = "exactly")]
-    pub g59_mm: Point,
-    /// Zero of G59.1.
-    #[serde(deserialize_with = "exactly")]
-    pub g59_1_mm: Point,
-    /// Zero of G59.2.
-    #[serde(deserialize_with = "exactly")]
-    pub g59_2_mm: Point,
-    /// Zero of G59.3.
-    #[serde(deserialize_with = "exactly")]
-    pub g59_3_mm: Point,
-    /// Directories with the files of subroutines that the program calls; in a file relative to that
-    /// file.
-    pub subroutine_path: Vec<PathBuf>,
+settings! {
+    /// Zeros and reference points of a part program, from the machine's zero, and its subroutines.
+    pub struct Program {
+        /// Reference point of G28.
+        pub g28_mm: Point = [0.0; 3], in -REACH_MM..=REACH_MM;
+        /// Reference point of G30.
+        pub g30_mm: Point = [0.0; 3], in -REACH_MM..=REACH_MM;
+        /// Zero of G54, which is in force at the beginning.
+        pub g54_mm: Point = [0.0; 3], in -REACH_MM..=REACH_MM;
+        /// Zero of G55.
+        pub g55_mm: Point = [0.0; 3], in -REACH_MM..=REACH_MM;
+        /// Zero of G56.
+        pub g56_mm: Point = [0.0; 3], in -REACH_MM..=REACH_MM;
+        /// Zero of G57.
+        pub g57_mm: Point = [0.0; 3], in -REACH_MM..=REACH_MM;
+        /// Zero of G58.
+        pub g58_mm: Point = [0.0; 3], in -REACH_MM..=REACH_MM;
+        /// Zero of G59.
+        pub g59_mm: Point = [0.0; 3], in -REACH_MM..=REACH_MM;
+        /// Zero of G59.1.
+        pub g59_1_mm: Point = [0.0; 3], in -REACH_MM..=REACH_MM;
+        /// Zero of G59.2.
+        pub g59_2_mm: Point = [0.0; 3], in -REACH_MM..=REACH_MM;
+        /// Zero of G59.3.
+        pub g59_3_mm: Point = [0.0; 3], in -REACH_MM..=REACH_MM;
+        /// Directories with the files of subroutines that the program calls; in a scenario file
+        /// relative to that file.
+        pub subroutine_path: Vec<PathBuf> = Vec::new();
+    }
 }
 
 impl Program {
-    /// The same for the reader.
+    /// Returns zeros and reference points for the reader of part programs.
     ///
     /// # Errors
     ///

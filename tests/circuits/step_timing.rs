@@ -22,7 +22,7 @@ fn watch(limits: StepTiming, step: &str, dir: &str) -> (Driver, Option<(u64, Too
 fn minima_counts_and_position() {
     let step = "__##_###____#____##__#__";
     let dir_ = "_______________#########";
-    let (driver, complaint) = watch(StepTiming::default(), step, dir_);
+    let (driver, complaint) = watch(StepTiming::NONE, step, dir_);
     assert_eq!(complaint, None);
     assert_eq!((driver.pulses(), driver.position()), (5, 1));
     assert_eq!(
@@ -38,14 +38,14 @@ fn minima_counts_and_position() {
 
 #[test]
 fn no_edges_give_no_minima() {
-    let (driver, _) = watch(StepTiming::default(), "______", "######");
+    let (driver, _) = watch(StepTiming::NONE, "______", "######");
     assert_eq!(driver.minima(), TimingMinima::default());
     assert_eq!((driver.pulses(), driver.position()), (0, 0));
 }
 
 #[test]
 fn the_level_of_direction_at_the_start_is_no_change() {
-    let (driver, _) = watch(StepTiming::default(), "#_#_", "####");
+    let (driver, _) = watch(StepTiming::NONE, "#_#_", "####");
     assert_eq!(driver.minima().setup, None);
     assert_eq!(driver.minima().hold, None);
     assert_eq!(driver.position(), -2);
@@ -53,7 +53,7 @@ fn the_level_of_direction_at_the_start_is_no_change() {
 
 #[test]
 fn a_direction_that_turns_twice_counts_from_its_last_turn() {
-    let (driver, _) = watch(StepTiming::default(), "_#________#_", "____#__#____");
+    let (driver, _) = watch(StepTiming::NONE, "_#________#_", "____#__#____");
     assert_eq!(driver.minima().setup, Some(2));
     assert_eq!(driver.minima().hold, Some(3));
 }
@@ -69,10 +69,10 @@ fn each_limit_is_judged_to_the_tick() {
     for (what, step, dir, ticks, at) in lines {
         for limit in 0..6 {
             let limits = StepTiming {
-                min_high: if what == "high" { limit } else { 0 },
-                min_low: if what == "low" { limit } else { 0 },
-                dir_setup: if what == "setup" { limit } else { 0 },
-                dir_hold: if what == "hold" { limit } else { 0 },
+                step_high_ticks: if what == "high" { limit } else { 0 },
+                step_low_ticks: if what == "low" { limit } else { 0 },
+                dir_setup_ticks: if what == "setup" { limit } else { 0 },
+                dir_hold_ticks: if what == "hold" { limit } else { 0 },
             };
             let expected = (u64::from(limit) > ticks).then(|| {
                 (
@@ -92,8 +92,8 @@ fn each_limit_is_judged_to_the_tick() {
 #[test]
 fn a_step_in_the_tick_of_the_turn_has_no_setup() {
     let limits = StepTiming {
-        dir_setup: 1,
-        ..StepTiming::default()
+        dir_setup_ticks: 1,
+        ..StepTiming::NONE
     };
     let (driver, complaint) = watch(limits, "__#_", "__##");
     let ticks = 0;
@@ -108,8 +108,8 @@ fn drivers_on_a_group_end_the_run_at_the_first_time_too_short() {
     // The first pulse rises at tick 13 and falls at 16; the next rises at 19 and is cut at 20.
     for (min_high, ends) in [(1, None), (2, Some(20)), (3, Some(20)), (4, Some(16))] {
         let limits = StepTiming {
-            min_high,
-            ..StepTiming::default()
+            step_high_ticks: min_high,
+            ..StepTiming::NONE
         };
         let mut simulator = Simulator::new(&group).unwrap();
         let run = simulator.run(60, |_, _| zero(&group), Drivers::new(1, limits));

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Ts = 10 ms of 100 ticks, blends of 20 samples, 0.1 um a count.
 pub const HEAD: &str = "circuit = \"arc_generator\"\nclock_hz = 10_000\nsample_period_ms = 10\n\
-     acceleration_ms = 200\ncounts_per_mm = 10_000\nspeed_mm_per_s = 20\n";
+     acceleration_ms = 200\ncounts_per_mm = 10_000\nfeed_mm_per_min = 1200\n";
 const TS: f64 = 0.01;
 const TA: f64 = 0.1;
 
@@ -49,14 +49,12 @@ fn the_seam_is_what_closed_forms_say() {
         [
             "arcs",
             "arm",
-            "blend",
             "blend_samples",
             "blends",
             "circuit",
             "circuits",
             "clock_hz",
             "complaints",
-            "counts_per_mm",
             "end_demanded",
             "end_position",
             "error_bound_um",
@@ -68,11 +66,11 @@ fn the_seam_is_what_closed_forms_say() {
             "operations",
             "point_bits",
             "record_bits",
-            "rounding",
             "sample_ticks",
             "sample_ticks_needed",
             "samples",
             "seconds",
+            "settings",
             "speed_changes",
             "ticks",
             "vcd_window",
@@ -84,7 +82,7 @@ fn the_seam_is_what_closed_forms_say() {
     assert_eq!(whole(&summary, "/record_bits"), 3 * 32 * 42);
     assert_eq!(whole(&summary, "/point_bits"), 1271 * 3 * 24);
     assert_eq!(summary["input"], "weld");
-    assert_eq!(summary["rounding"], "nearest");
+    assert_eq!(summary["settings"]["rounding"], "nearest");
     assert_eq!(summary["exact"], true);
     assert_eq!(summary["complaints"], json!([]));
     assert_eq!(paths(&summary), json!(["waves/weld.svg"]));
@@ -384,7 +382,7 @@ fn both_roundings_keep_their_bounds() {
     let bound = |rounding: &str| {
         let set = format!("rounding={rounding}");
         let summary = Bench::new().json(&["run", "waves/weld.toml", "--no-vcd", "--set", &set]);
-        assert_eq!(summary["rounding"], rounding);
+        assert_eq!(summary["settings"]["rounding"], rounding);
         assert_eq!(summary["exact"], true);
         number(&summary, "/arcs/0/bound_um")
     };
@@ -420,14 +418,14 @@ fn a_circle_by_hand() {
 
 #[test]
 fn speeds_of_pieces_and_slower_ones() {
-    let own = format!("{SEAM}speed_mm_per_s = 5\n");
+    let own = format!("{SEAM}feed_mm_per_min = 300\n");
     let run = summary(&own, &[]);
     assert_eq!(number(&run, "/arcs/0/speed_wanted_mm_per_s"), 5.0);
     let (n, v) = samples_and_speed(10.0, PI, 5.0);
     assert_eq!(whole(&run, "/arcs/0/samples"), n);
     near(number(&run, "/arcs/0/speed_mm_per_s/expected"), v, 1e-9);
 
-    let fast = format!("{SEAM}speed_mm_per_s = 500\n");
+    let fast = format!("{SEAM}feed_mm_per_min = 30000\n");
     let run = summary(&fast, &["--set", "short_pieces=slower"]);
     let v = number(&run, "/arcs/0/speed_mm_per_s/expected");
     // A blend reaches no farther than the radius.

@@ -161,7 +161,7 @@ fn bad_arms_are_refused() {
         ),
         (
             "wrist=1",
-            "arm.wrist: unknown field `wrist`; allowed: one of `shoulder_mm`, `upper_mm`",
+            "arm.wrist: unknown key; allowed: one of `shoulder_mm`, `upper_mm`",
         ),
     ];
     for (set, refusal) in cases {

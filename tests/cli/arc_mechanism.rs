@@ -129,7 +129,7 @@ fn bad_mechanisms_are_refused() {
         ("damping=1", "mechanism.damping: is 1; allowed: 0 to 0.9"),
         (
             "mass=1",
-            "mechanism.mass: unknown field `mass`; allowed: `frequency_hz` or `damping`",
+            "mechanism.mass: unknown key; allowed: one of `frequency_hz`, `damping`",
         ),
     ];
     for (set, refusal) in cases {

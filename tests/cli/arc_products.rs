@@ -18,7 +18,7 @@ fn run(set: &[&str]) -> Value {
 fn blends_by_products_are_those_by_differences() {
     let summary = run(&["clock_hz=20000"]);
     assert_eq!(
-        (&summary["blend"], &summary["exact"]),
+        (&summary["settings"]["blend"], &summary["exact"]),
         (&"products".into(), &true.into())
     );
     assert_eq!(summary["sample_ticks_needed"], 171);
@@ -42,7 +42,7 @@ fn blends_by_products_are_those_by_differences() {
     // Without a command that differs the path is as far off.
     let differences = with(SEAM).json(&["run", "s.toml", "--no-vcd", "--set", "clock_hz=20000"]);
     assert_eq!(differences["products"], Value::Null);
-    assert_eq!(differences["blend"], "differences");
+    assert_eq!(differences["settings"]["blend"], "differences");
     let [own, other] = [&summary, &differences].map(|of| number(of, "/error_max_um"));
     assert_eq!(own, other);
     assert!(

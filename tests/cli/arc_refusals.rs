@@ -5,6 +5,7 @@ use super::support::Bench;
 
 #[test]
 fn bad_settings_are_refused() {
+    const SPEEDS: &str = "allowed: 0.00006 to 60000000000";
     const RANGE: &str = "allowed: 0.000001 to 1000000000";
     let cases = [
         ("sample_period_ms=-1", "sample_period_ms: is -1; allowed: "),
@@ -25,12 +26,12 @@ fn bad_settings_are_refused() {
             &format!("counts_per_mm: is 0; {RANGE}\n"),
         ),
         (
-            "speed_mm_per_s=0",
-            &format!("speed_mm_per_s: is 0; {RANGE}\n"),
+            "feed_mm_per_min=0",
+            &format!("feed_mm_per_min: is 0; {SPEEDS}\n"),
         ),
         (
-            "rapid_mm_per_s=nan",
-            &format!("rapid_mm_per_s: is NaN; {RANGE}\n"),
+            "rapid_mm_per_min=nan",
+            &format!("rapid_mm_per_min: is NaN; {SPEEDS}\n"),
         ),
         ("corner_deg=181", "corner_deg: is 181; allowed: 0 to 180\n"),
         ("clock_hz=0", "clock_hz: is 0; allowed: 1 to 10000000000\n"),
@@ -52,7 +53,7 @@ fn bad_settings_are_refused() {
         ),
         (
             "feed=1",
-            "feed: unknown field `feed`; allowed: one of `circuit`, `input`, `program`, `start_mm`, `piece`, ",
+            "feed: unknown key; allowed: `feed_mm_per_min` is the nearest; `motion-rtl keys arc_generator` lists all",
         ),
         (
             "input=p.ngc",
@@ -102,32 +103,32 @@ fn bad_pieces_are_refused_with_their_line() {
             "s.toml:11: piece 1: via_mm: start and via are the same point; allowed: points apart",
         ),
         (
-            format!("{SEAM}[[piece]]\nto_mm = [30, 0, 0]\nspeed_mm_per_s = 60\n"),
-            "s.toml:12: piece 1: speed_mm_per_s: at 60 mm/s the blends at its ends take more than the piece, 10 mm; allowed: at most 47.619 mm/s (F2857.14), or shorter blends",
+            format!("{SEAM}[[piece]]\nto_mm = [30, 0, 0]\nfeed_mm_per_min = 3600\n"),
+            "s.toml:12: piece 1: feed_mm_per_min: at 3600 mm/min the blends at its ends take more than the piece, 10 mm; allowed: at most 2857.14 mm/min, or shorter blends",
         ),
         (
-            format!("{SEAM}[[piece]]\nto_mm = [30, 0, 0]\nspeed_mm_per_s = -1\n"),
-            "s.toml:12: piece 1: speed_mm_per_s: is -1 mm/s; allowed: a speed above 0",
+            format!("{SEAM}[[piece]]\nto_mm = [30, 0, 0]\nfeed_mm_per_min = -60\n"),
+            "s.toml:12: piece 1: feed_mm_per_min: is -60 mm/min; allowed: a speed above 0",
         ),
         (
-            format!("{SEAM}speed_mm_per_s = 120\n"),
-            "s.toml:10: piece 0: speed_mm_per_s: at 120 mm/s a blend reaches 12 mm along an arc of 10 mm radius; allowed: at most 100 mm/s (F6000), whose blends reach no farther than the radius",
+            format!("{SEAM}feed_mm_per_min = 7200\n"),
+            "s.toml:10: piece 0: feed_mm_per_min: at 7200 mm/min a blend reaches 12 mm along an arc of 10 mm radius; allowed: at most 6000 mm/min, whose blends reach no farther than the radius",
         ),
         (
             "[[piece]]\nto_mm = [2000, 0, 0]\n".into(),
             "s.toml:8: piece 0: to_mm: x reaches 19980000.0 counts, which needs W = 26; allowed: -8388607 to 8388607 counts at W = 24: fewer counts per mm",
         ),
         (
-            "[[piece]]\nto_mm = [200, 0, 0]\nspeed_mm_per_s = 0.0001\n".into(),
-            "s.toml:9: piece 0: speed_mm_per_s: takes 199999980 samples at 0.0001 mm/s; allowed: at most 1048575 samples: faster, shorter, or sampled less often",
+            "[[piece]]\nto_mm = [200, 0, 0]\nfeed_mm_per_min = 0.006\n".into(),
+            "s.toml:9: piece 0: feed_mm_per_min: takes 199999980 samples at 0.006 mm/min; allowed: at most 1048575 samples: faster, shorter, or sampled less often",
         ),
         (
             "[[piece]]\nto_mm = [200, 0]\n".into(),
-            "s.toml:8: to_mm: invalid length 2; allowed: a list of three numbers, of X, Y and Z",
+            "s.toml:8: to_mm: invalid length 2; allowed: a list of three numbers, of X, Y and Z, or of four with W",
         ),
         (
             "[[piece]]\nvia = [200, 0, 0]\n".into(),
-            "s.toml:8: via: unknown field `via`; allowed: one of `to_mm`, `via_mm`, `spline`, `speed_mm_per_s`",
+            "s.toml:8: via: unknown key; allowed: `via_mm` is the nearest; one of `to_mm`, `via_mm`, `spline`, `feed_mm_per_min`",
         ),
         (
             "[[piece]]\nvia_mm = [200, 0, 0]\n".into(),
@@ -167,7 +168,7 @@ fn bad_pieces_are_refused_with_their_line() {
     let bench = Bench::with("s.toml", format!("circuit = \"arc_generator\"\n{SEAM}"));
     bench.refuse(
         &["run", "s.toml"],
-        "s.toml:2: piece 0: speed_mm_per_s: missing; allowed: a speed of the piece, or one for all",
+        "s.toml:2: piece 0: feed_mm_per_min: missing; allowed: a speed of the piece, or one for all",
     );
     bench.write("l.ngc", "G1 X20 F600\n");
     bench.refuse(
@@ -194,22 +195,22 @@ fn bad_moves_are_refused_with_their_line() {
         (
             "p.ngc",
             "G1 X60 F1200\n(fast)\nG3 I-2 F2400\n",
-            "p.ngc:3: F: at 40 mm/s a blend reaches 4 mm along an arc of 2 mm radius; allowed: at most 20 mm/s (F1200), whose blends reach no farther than the radius",
+            "p.ngc:3: F: at 2400 mm/min a blend reaches 4 mm along an arc of 2 mm radius; allowed: at most 1200 mm/min, whose blends reach no farther than the radius",
         ),
         (
             "p.ngc",
             "G1 X20 F6000\n",
-            "p.ngc:1: F: at 100 mm/s the blends at its ends take more than the piece, 20 mm; allowed: at most 95.238 mm/s (F5714.28), or shorter blends",
+            "p.ngc:1: F: at 6000 mm/min the blends at its ends take more than the piece, 20 mm; allowed: at most 5714.28 mm/min, or shorter blends",
         ),
         (
             "p.ngc",
             "\nG0 X20\nG1 X40 F600\n",
-            "p.ngc:2: rapid_mm_per_s: at 200 mm/s the blends at its ends take more than the piece, 20 mm; allowed: at most 95.238 mm/s (F5714.28), or shorter blends",
+            "p.ngc:2: rapid_mm_per_min: at 12000 mm/min the blends at its ends take more than the piece, 20 mm; allowed: at most 5714.28 mm/min, or shorter blends",
         ),
         (
             "p.ngc",
             "G1 X1\n",
-            "p.ngc:1: speed_mm_per_s: at 20 mm/s the blends at its ends take more than the piece, 1 mm; allowed: at most 4.7619 mm/s (F285.714), or shorter blends",
+            "p.ngc:1: feed_mm_per_min: at 1200 mm/min the blends at its ends take more than the piece, 1 mm; allowed: at most 285.714 mm/min, or shorter blends",
         ),
         (
             "p.ngc",
@@ -224,7 +225,7 @@ fn bad_moves_are_refused_with_their_line() {
         (
             "p.hpgl",
             "PU4000,0;\nPD4200,0;",
-            "p.hpgl:2: speed_mm_per_s: at 20 mm/s the blends at its ends take more than the piece, 5 mm; allowed: at most 12.1951 mm/s (F731.706), or shorter blends",
+            "p.hpgl:2: feed_mm_per_min: at 1200 mm/min the blends at its ends take more than the piece, 5 mm; allowed: at most 731.707 mm/min, or shorter blends",
         ),
     ];
     for (name, text, refusal) in cases {
@@ -243,7 +244,7 @@ fn bad_moves_are_refused_with_their_line() {
     let bench = Bench::with("l.hpgl", "PD400,0;");
     bench.refuse(
         &["run", "l.hpgl", "--set", "circuit=arc_generator"],
-        "l.hpgl:1: F: missing; allowed: a feed, or speed_mm_per_s for all",
+        "l.hpgl:1: F: missing; allowed: a feed, or feed_mm_per_min for all",
     );
     bench.refuse(
         &["table", "waves/weld.toml"],

@@ -84,7 +84,7 @@ fn all_faults_of_a_scenario_are_told() {
               |
             2 | clock_hz = "fast" # too fast
               |            ^^^^^^
-            error: s.toml:3: colour: unknown field `colour`; allowed: one of `circuit`, `input`, `log_column`, `log_time_column`, `log_time_unit_ms`, `clock_hz`, `ck_ticks`, `step`, `targets`, `action`, `operation_delay_s`, `load_delay_factor`, `detector`, `sampling_clock_ppm`, `pole_pairs`, `sine_offset`, `gain_mismatch`, `lead`, `form`, `placement`, `comparing`, `sign`, `function`, `history`, `learn`, `common_time`, `time_source`, `seed_ms`, `completion`, `standstill_ms`, `time_out_ms`, `rest_ms`, `speed_gate_ms`, `speed_lead_ms`, `switch_counts`, `positionings`, `load_change_after`, `load_inertia_factor`, `load_friction_factor`, `load_brake_factor`, `counts_per_rev`, `acceleration_counts_per_s2`, `inertia_kg_m2`, `friction_nm`, `brake_dead_time_s`, `brake_torque_nm`, `brake_fade`, `beside`, `vcd_ticks`
+            error: s.toml:3: colour: unknown key; allowed: `motion-rtl keys lead_angle` lists all
               |
             3 | colour = 3
               | ^^^^^^
@@ -92,7 +92,7 @@ fn all_faults_of_a_scenario_are_told() {
               |
             7 | speed_counts_per_s = -1
               |                      ^^
-            error: s.toml:11: sped: unknown field `sped`; allowed: one of `target`, `speed_counts_per_s`, `lead_ms`, `load_lead_ms`
+            error: s.toml:11: sped: unknown key; allowed: one of `target`, `speed_counts_per_s`, `lead_ms`, `load_lead_ms`
                |
             11 | sped = 10
                | ^^^^

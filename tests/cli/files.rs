@@ -270,7 +270,7 @@ fn messages_are_cut_and_plain() {
         ("long.toml", "kkkk"),
         ("long.csv", "kkkk"),
         ("odd.csv", "\\u{1b}[31m\\u{7}"),
-        ("odd.toml", "\\u{1b}[31m"),
+        ("odd.toml", "\\u001b[31m"),
     ] {
         let done = bench.run(&["run", name, "--no-vcd"]);
         let text = done.stderr.trim_end_matches('\n');

@@ -59,14 +59,12 @@ fn ten_millimetres_are_a_hundred_and_thirty_four_scans() {
         "input",
         "interpolator",
         "interpolator_other_master",
-        "master",
         "other_master",
-        "scan_ticks",
         "scans",
         "seconds",
         "segments",
+        "settings",
         "ticks",
-        "variant",
         "vcd_window",
         "version",
         "warnings",
@@ -74,14 +72,14 @@ fn ten_millimetres_are_a_hundred_and_thirty_four_scans() {
     assert_eq!(keys(&summary), expected);
     assert_eq!(summary["circuit"], "linear_interpolator");
     assert_eq!(summary["input"], "line.hpgl");
-    assert_eq!(summary["variant"], "floor");
+    assert_eq!(summary["settings"]["variant"], "floor");
     assert_eq!(summary["exact"], true);
     assert_eq!(summary["complaints"], json!([]));
     assert_eq!(summary["warnings"], json!([]));
     assert_eq!(paths(&summary), json!(["waves/line.svg"]));
     assert_eq!(summary["vcd_window"], Value::Null);
     assert_eq!(whole(&summary, "/clock_hz"), 1_000_000);
-    assert_eq!(whole(&summary, "/scan_ticks"), 1000);
+    assert_eq!(whole(&summary, "/settings/scan_ticks"), 1000);
     let (scans, ticks) = (whole(&summary, "/scans"), whole(&summary, "/ticks"));
     assert!(
         ticks >= scans * 1000 && scans > 134,
@@ -199,7 +197,7 @@ fn each_rule_of_division_keeps_its_bound() {
         let set = format!("variant={variant}");
         let text = "G1 X-13.7 Y5.1\nG1 X2 Y-7\nG1 X0 Y0\n";
         let summary = summary("v.ngc", text, &["--set", &set]);
-        assert_eq!(summary["variant"], variant);
+        assert_eq!(summary["settings"]["variant"], variant);
         let deviation = summary["interpolator"]["deviation_max_lsb"]
             .as_f64()
             .unwrap();
@@ -240,9 +238,9 @@ vcd_ticks = 100
     let bench = Bench::with("all.toml", scenario);
     bench.write("l.ngc", "G1 X2 Y1\nG2 X3 Y2 I1 J0\n");
     let summary = bench.json(&["run", "all.toml"]);
-    assert_eq!(summary["variant"], "centred");
+    assert_eq!(summary["settings"]["variant"], "centred");
     assert_eq!(whole(&summary, "/clock_hz"), 500_000);
-    assert_eq!(whole(&summary, "/scan_ticks"), 600);
+    assert_eq!(whole(&summary, "/settings/scan_ticks"), 600);
     assert_eq!(summary["interpolator"]["end_position"], json!([300, 500]));
     assert_eq!(
         bench.names(),
@@ -280,8 +278,8 @@ fn the_order_of_overrides_does_not_matter_to_the_circuit() {
         "variant=centred",
     ];
     let summary = bench.json(&[&after[..], &LINEAR[..]].concat());
-    assert_eq!(whole(&summary, "/scan_ticks"), 2000);
-    assert_eq!(summary["variant"], "centred");
+    assert_eq!(whole(&summary, "/settings/scan_ticks"), 2000);
+    assert_eq!(summary["settings"]["variant"], "centred");
 }
 
 #[test]

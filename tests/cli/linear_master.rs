@@ -11,7 +11,7 @@ fn another_master_axis_runs_beside_and_makes_a_longer_slave_accelerate() {
     let bench = Bench::with("steep.hpgl", "PD400,4000;");
     let longer = bench.json(&run("steep.hpgl", &["--beside"]));
     assert_eq!(
-        (&longer["master"], &longer["other_master"]),
+        (&longer["settings"]["master"], &longer["other_master"]),
         (&json!("longer"), &json!("x"))
     );
     assert_eq!(longer["segments"][0]["master"], "y");
@@ -35,7 +35,7 @@ fn another_master_axis_runs_beside_and_makes_a_longer_slave_accelerate() {
 
     let fixed = bench.json(&run("steep.hpgl", &["--beside", "--set", "master=x"]));
     assert_eq!(
-        (&fixed["master"], &fixed["other_master"]),
+        (&fixed["settings"]["master"], &fixed["other_master"]),
         (&json!("x"), &json!("longer"))
     );
     assert_eq!(fixed["segments"][0]["master"], "x");

@@ -3,11 +3,8 @@
 use super::linear::{LINEAR, run};
 use super::support::{Bench, LINE};
 
-const KEYS: &str = "one of `circuit`, `input`, `program`, `variant`, `master`, `clock_hz`, `scan_ticks`, \
-     `counts_per_mm`, `feed_mm_per_min`, `rapid_mm_per_min`, `full_speed_mm_per_min`, `acceleration_ms`, \
-     `deceleration_ms`, `short_moves`, `chord_tolerance_mm`, `exact_stop`, \
-     `in_position_counts`, `position_gain_per_s`, `rated_speed_rev_per_min`, `counts_per_rev`, \
-     `velocity_loop_ms`, `inertia_kg_m2`, `max_torque_nm`, `friction_nm`, `beside`, `vcd_ticks`";
+/// What stands behind the nearest key.
+const KEYS: &str = "`motion-rtl keys linear_interpolator` lists all";
 
 #[test]
 fn the_table_is_refused() {
@@ -39,8 +36,8 @@ fn segments_are_of_this_circuit_alone() {
 fn bad_overrides_are_refused() {
     const PAIR: &str = "allowed: a list of two numbers, of X and of Y";
     let cases = [
-        ("feed=1", format!("feed: unknown field `feed`; allowed: {KEYS}")),
-        ("steps_per_mm=[80,80]", format!("steps_per_mm: unknown field `steps_per_mm`; allowed: {KEYS}")),
+        ("feed=1", format!("feed: unknown key; allowed: `feed_mm_per_min` is the nearest; {KEYS}")),
+        ("steps_per_mm=[80,80]", format!("steps_per_mm: is a key of pulse_interpolator and machine, not of linear_interpolator; allowed: {KEYS}")),
         ("variant=safe", "variant: unknown variant `safe`; allowed: one of `floor`, `truncating`, `centred`".into()),
         ("master=z", "master: unknown variant `z`; allowed: one of `longer`, `x`, `y`".into()),
         ("short_moves=slow", "short_moves: unknown variant `slow`; allowed: `constant_acceleration` or `constant_time`".into()),
@@ -96,7 +93,9 @@ fn bad_scenarios_are_refused_with_their_line() {
         ),
         (
             "line_unit_ticks = 100",
-            format!("s.toml:2: line_unit_ticks: unknown field `line_unit_ticks`; allowed: {KEYS}"),
+            format!(
+                "s.toml:2: line_unit_ticks: is a key of pulse_interpolator, not of linear_interpolator; allowed: {KEYS}"
+            ),
         ),
         (
             "friction_nm = [\n  0.1,\n  \"a\",\n]",
@@ -117,7 +116,7 @@ fn bad_scenarios_are_refused_with_their_line() {
     // The keys of one circuit are not those of the other.
     let done = bench.run(&[&["run", "waves/bracket.toml"], &LINEAR[..]].concat());
     assert_eq!(done.code, 2);
-    let start = "error: --set: circuit: unknown field `";
+    let start = "error: waves/bracket.toml:";
     assert!(done.stderr.starts_with(start), "{}", done.stderr);
 }
 

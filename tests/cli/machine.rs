@@ -43,10 +43,8 @@ fn both_machines_end_at_the_same_point() {
         [
             "apart_um",
             "circuit",
-            "ck_ticks",
             "clock_hz",
             "complaints",
-            "counts_per_mm",
             "end_mm",
             "ends",
             "exact",
@@ -56,14 +54,11 @@ fn both_machines_end_at_the_same_point() {
             "lifts",
             "pieces",
             "pulses",
-            "sample_ticks",
-            "scan_ticks",
             "seconds",
-            "steps_per_mm",
+            "settings",
             "ticks",
             "times",
             "unattainable_units",
-            "unit_ticks",
             "vcd_window",
             "version",
             "warnings"
@@ -346,8 +341,8 @@ fn what_the_circuits_cannot_agree_on_is_refused() {
     // 1000 counts/mm, scans of 1.25 ms, 45 degrees.
     bench.refuse(
         &["run", "s.toml"],
-        "p.ngc:2: F: at 0.025 mm/s the axis with the longer way goes too few counts in a scan; \
-         allowed: at least 0.0276214 mm/s (F1.65729) in this direction, or a longer scan",
+        "p.ngc:2: F: at 1.5 mm/min the axis with the longer way goes too few counts in a scan; \
+         allowed: at least 1.65729 mm/min in this direction, or a longer scan",
     );
     bench.refuse(
         &["run", "s.toml", "--set", "sample_ticks=409501"],
@@ -363,12 +358,12 @@ fn bad_input_is_refused_with_its_line() {
         (
             "feed = 1",
             SHORT,
-            "s.toml:8: feed: unknown field `feed`; allowed: one of `circuit`, `input`, `program`, `clock_hz`, ",
+            "s.toml:8: feed: unknown key; allowed: `feed_mm_per_min` is the nearest; `motion-rtl keys machine` lists all",
         ),
         (
             "[lift]\nmass = 1",
             SHORT,
-            "s.toml:9: mass: unknown field `mass`; allowed: one of `counts_per_rev`, ",
+            "s.toml:9: mass: unknown key; allowed: one of `counts_per_rev`, ",
         ),
         (
             "[lift]\nfriction_nm = 1",

@@ -112,7 +112,7 @@ fn words(items: &[ScopeItem]) -> impl Iterator<Item = usize> + '_ {
 fn machine_of(text: &str) -> Machine {
     let loaded = Loaded::parse("s.toml", text, &[]).unwrap();
     match loaded.scenario {
-        Scenario::Machine(scenario) => machine(&scenario.settings()),
+        Scenario::Machine(scenario) => machine(&scenario.settings),
         other => panic!("{other:?}"),
     }
 }

@@ -23,6 +23,7 @@ mod dumps;
 mod fault_reports;
 mod files;
 mod fst;
+mod keys;
 mod lead_angle;
 mod lenient;
 mod linear;

@@ -532,7 +532,7 @@ fn bad_groups_are_refused() {
         ),
         (
             second("play = [\"a\"]\ntick = 1"),
-            "s.toml:9: tick: unknown field `tick`; allowed: `play` or `command_tick`",
+            "s.toml:9: tick: unknown key; allowed: `command_tick` is the nearest; one of `play`, `command_tick`",
         ),
         (
             second("command_tick = 1"),

@@ -16,7 +16,7 @@ fn a_long_run_says_its_ticks_before_it_starts() {
     let bench = Bench::with("l.hpgl", "PD200,0,200,200;");
     let settings = [
         "circuit=trajectory_controller",
-        "feed_mm_per_s=50",
+        "feed_mm_per_min=3000",
         "k1_per_s=0.405",
     ];
     let settings = settings.iter().flat_map(|set| ["--set", set]);

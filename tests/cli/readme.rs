@@ -193,7 +193,7 @@ fn every_command_exists() {
         }
     }
     let all = [
-        "check", "clean", "compare", "list", "mutate", "run", "table", "verilog",
+        "check", "clean", "compare", "keys", "list", "mutate", "run", "table", "verilog",
     ]
     .map(str::to_owned);
     assert_eq!(used, BTreeSet::from(all), "the commands that are shown");

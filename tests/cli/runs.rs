@@ -262,7 +262,7 @@ fn a_run_is_the_same_without_waves() {
             "arc_generator",
             "straight.ngc",
             "arc_generator.sequencer",
-            &["acceleration_ms=20", "rapid_mm_per_s=20"],
+            &["acceleration_ms=20", "rapid_mm_per_min=1200"],
         ),
         (
             "trajectory_controller",

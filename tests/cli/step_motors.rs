@@ -172,7 +172,7 @@ fn bad_motors_are_refused() {
         ("microsteps=0", "motor.microsteps: is 0; allowed: 1 to 1024"),
         (
             "rotor=1",
-            "motor.rotor: unknown field `rotor`; allowed: one of `holding_torque_nm`",
+            "motor.rotor: unknown key; allowed: one of `holding_torque_nm`",
         ),
     ] {
         let bench = bench(&[50; 4], MOTOR);

@@ -27,12 +27,12 @@ fn bad_settings_are_refused_with_their_line() {
             "s.toml:8: piece 0: to_mm: leaves the plane of x and y by 1 mm; allowed: the height of the start, or three axes",
         ),
         (
-            "[[piece]]\nto_mm = [10, 0, 0]\n[[piece]]\nvia_mm = [20, 0, 0]\nto_mm = [30, 0, 0]\nspeed_mm_per_s = 3\n",
+            "[[piece]]\nto_mm = [10, 0, 0]\n[[piece]]\nvia_mm = [20, 0, 0]\nto_mm = [30, 0, 0]\nfeed_mm_per_min = 180\n",
             "",
         ),
         (
-            "[[piece]]\nto_mm = [10, 0, 0]\nspeed_mm_per_s = 0\n",
-            "s.toml:8: piece 0: speed_mm_per_s: is 0 mm/s; allowed: a speed above 0",
+            "[[piece]]\nto_mm = [10, 0, 0]\nfeed_mm_per_min = 0\n",
+            "s.toml:8: piece 0: feed_mm_per_min: is 0 mm/min; allowed: a speed above 0",
         ),
         (
             "[[piece]]\nto_mm = [10, 0, 0]\n[[piece]]\nto_mm = [30, 0, 0]\nvia_mm = [20, 9, 0]\nspline = true\n",
@@ -148,7 +148,7 @@ fn bad_settings_are_refused_with_their_line() {
         ),
         (
             "[machine]\nmass = 1\n",
-            "s.toml:7: mass: unknown field `mass`; allowed: one of `max_torque_nm`, ",
+            "s.toml:7: mass: unknown key; allowed: one of `max_torque_nm`, ",
         ),
         (
             "[machine]\nmax_torque_nm = 1\n",

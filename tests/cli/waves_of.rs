@@ -113,7 +113,7 @@ fn a_system_that_there_is_not_is_refused_with_those_that_there_are() {
     // Without a tolerance there is no other feed.
     bench.write(
         "free.toml",
-        "circuit = \"trajectory_controller\"\nfeed_mm_per_s = 10\n[[piece]]\nto_mm = [1, 0, 0]\n",
+        "circuit = \"trajectory_controller\"\nfeed_mm_per_min = 600\n[[piece]]\nto_mm = [1, 0, 0]\n",
     );
     let run = ["run", "free.toml", "--waves-of", "vector_full_feed"];
     let text = "--waves-of: free has no system vector_full_feed; allowed: none, steady, feedback, \

@@ -21,10 +21,8 @@ fn settings(rule: Rule) -> Settings {
         in_position_counts: 8,
         ..Settings::default()
     };
-    for (axis, gain) in settings.axes.iter_mut().zip([80.0, 60.0]) {
-        axis.rated_speed_rev_per_min = 1400.0;
-        axis.position_gain_per_s = gain;
-    }
+    settings.rated_speed_rev_per_min = [1400.0; 2];
+    settings.position_gain_per_s = [80.0, 60.0];
     settings
 }
 

@@ -34,9 +34,9 @@ fn hold(axes: usize, correction: Correction, rounding: Rounding, simulator: Simu
     let settings = Settings {
         // Four axes take four ticks more, for their words.
         clock_hz: 1000 * (LEAST_PERIOD_TICKS + if axes == 4 { 4 } else { 0 }),
-        feed_mm_per_s: Some(30.0),
+        feed_mm_per_min: Some(1800.0),
         jerk_time_ms: 4.0,
-        corner_mm_per_s: 5.0,
+        corner_mm_per_min: 300.0,
         rounding,
         correction,
         ..Settings::default()

@@ -17,6 +17,7 @@ fn settings(positionings: u32) -> Settings {
         target,
         speed_counts_per_s,
         lead_ms,
+        ..Step::default()
     };
     let mut settings = Settings {
         clock_hz: 50_000,

@@ -26,7 +26,7 @@ const PIECES: [(Point, Option<Point>); 4] = [
 /// Plays the path at the shortest sampling time, and drives the Verilog with the same inputs.
 fn hold(rounding: Rounding, simulator: Simulator) -> Played {
     let settings = Settings {
-        speed_mm_per_s: Some(100.0),
+        feed_mm_per_min: Some(6000.0),
         ..Settings::default()
     };
     let timing = Timing {

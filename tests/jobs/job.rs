@@ -20,7 +20,7 @@ fn settings(axes: usize) -> Settings {
         },
         line_unit_ticks: 40,
         arc_unit_ticks: 25,
-        timing: StepTiming::default(),
+        timing: StepTiming::NONE,
         ..Settings::default()
     }
 }

@@ -25,7 +25,7 @@ fn settings() -> Settings {
         lift_lead_ms: 10.0,
         ..Settings::default()
     };
-    settings.axis.load_inertia_kg_m2 = 1e-5;
+    settings.machine.load_inertia_kg_m2 = 1e-5;
     settings.lift.acceleration_counts_per_s2 = 4e6;
     settings.lift.brake_torque_nm = 40.0;
     settings.lift.brake_dead_time_s = 0.004;

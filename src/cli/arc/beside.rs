@@ -323,7 +323,7 @@ mod tests {
         let Scenario::ArcGenerator(scenario) = source.loaded.scenario.clone() else {
             panic!("another circuit");
         };
-        let job = Job::prepare(source, &scenario).unwrap();
+        let job = Job::prepare(source, scenario.settings).unwrap();
         let (planned, all) = runs(&job, Method::new).unwrap();
         let circuit = Conventional::new(job.settings.rounding);
         let played = beside::play(&circuit, &all, job.sample_ticks, &mut ()).unwrap();

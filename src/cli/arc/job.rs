@@ -11,12 +11,12 @@ use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::prepared::Prepared;
 use motion_rtl::jobs::arc_generator::settings::Settings;
 use motion_rtl::jobs::arc_generator::{products, record, reference};
+use motion_rtl::jobs::taught::taught;
 use motion_rtl::path::arm::Arm;
 use motion_rtl::path::error::{PathError, Reason};
 use motion_rtl::path::pieces::Speeds;
 use motion_rtl::path::record::Record;
 use motion_rtl::scenario::Loaded;
-use motion_rtl::scenario::arc_generator::Scenario;
 
 /// A path ready to be run.
 #[derive(Debug)]
@@ -46,25 +46,25 @@ pub struct Job {
 
 impl Job {
     /// Makes the records of a path.
-    pub fn prepare(source: Source, scenario: &Scenario) -> Result<Self, Failure> {
-        let (settings, loaded) = (scenario.settings(), &source.loaded);
+    pub fn prepare(source: Source, settings: Settings) -> Result<Self, Failure> {
+        let loaded = &source.loaded;
         let refuse = |error| loaded.refuse(error);
         let widths = settings.blend.widths(Widths::FULL);
         let timing = settings.timing(&widths).map_err(refuse)?;
         let sample_ticks = settings.sample_ticks(&widths).map_err(refuse)?;
-        let arm = scenario.arm.map(Arm::from);
+        let arm = settings.arm;
         arm.map_or(Ok(()), |arm| arm.validate()).map_err(refuse)?;
-        let mechanism = scenario.mechanism.map(Mechanism::from);
+        let mechanism = settings.mechanism;
         mechanism
             .map_or(Ok(()), |mechanism| mechanism.validate())
             .map_err(refuse)?;
-        let taught = scenario.taught().map_err(refuse)?;
+        let taught = taught(loaded.scenario.input(), &settings.piece, false).map_err(refuse)?;
         let keys = SpeedKeys {
             speeds: Speeds::from(&settings),
-            key: "speed_mm_per_s",
-            rapid: "rapid_mm_per_s",
+            key: "feed_mm_per_min",
+            rapid: "rapid_mm_per_min",
         };
-        let (drawing, start, pieces) = pieces(&source, scenario.start_mm, &taught, keys)?;
+        let (drawing, start, pieces) = pieces(&source, settings.start_mm, &taught, keys)?;
         let refuse = |error: PathError| fault(loaded, drawing.as_ref(), keys, &error);
         progress::stage("planning the path");
         let prepared = prepare(start, &pieces, &timing).map_err(refuse)?;

@@ -13,7 +13,7 @@ use crate::cli::report::Outcome;
 use motion_rtl::circuits::arc_generator::Widths;
 use motion_rtl::hdl::RunError;
 use motion_rtl::jobs::arc_generator::job::Played;
-use motion_rtl::jobs::arc_generator::settings::least_sample_ticks;
+use motion_rtl::jobs::arc_generator::settings::{Settings, least_sample_ticks};
 use motion_rtl::path::record::WORDS;
 use serde::Serialize;
 
@@ -23,18 +23,14 @@ pub struct Summary {
     /// What it has as all others.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// How the rotation rounds.
-    pub rounding: &'static str,
-    /// How blends and lines are made.
-    pub blend: &'static str,
+    /// Settings of the run.
+    pub settings: Settings,
     /// Ts in ticks.
     pub sample_ticks: u32,
     /// Ticks that the circuit needs of them.
     pub sample_ticks_needed: u64,
     /// 2ta in samples.
     pub blend_samples: u64,
-    /// Counts of a millimetre.
-    pub counts_per_mm: f64,
     /// Samples, the start of the path with them.
     pub samples: u64,
     /// Whether every sample is where it should be, within its bound, and the last is the path's end.
@@ -94,12 +90,10 @@ impl Summary {
                 warnings: warnings(job, figures),
                 ..Outcome::new("arc_generator", input, settings.clock_hz, played.ticks)
             },
-            rounding: settings.rounding.name(),
-            blend: settings.blend.name(),
+            settings: settings.clone(),
             sample_ticks: job.sample_ticks,
             sample_ticks_needed: least_sample_ticks(settings.blend),
             blend_samples: job.prepared.timing.blend_samples,
-            counts_per_mm: settings.counts_per_mm,
             samples: played.samples,
             end_position: last.map_or([0; 3], |command| command.counts),
             end_demanded: end.map_or([0.0; 3], |piece| {

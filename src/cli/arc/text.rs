@@ -19,7 +19,7 @@ impl Report for Summary {
             text,
             "{} ({}): {} samples, {}",
             self.outcome.subject(),
-            self.rounding,
+            self.settings.rounding.name(),
             self.samples,
             self.outcome.length()
         )?;
@@ -30,7 +30,7 @@ impl Report for Summary {
             self.sample_ticks,
             self.sample_ticks_needed,
             self.blend_samples,
-            1e3 / self.counts_per_mm
+            1e3 / self.settings.counts_per_mm
         )?;
         writeln!(
             text,

@@ -95,7 +95,7 @@ mod tests {
         let Scenario::ArcGenerator(scenario) = source.loaded.scenario.clone() else {
             panic!("another circuit");
         };
-        let job = Job::prepare(source, &scenario).unwrap();
+        let job = Job::prepare(source, scenario.settings).unwrap();
         let commands = reference::commands(&job.records, &Widths::FULL, job.settings.rounding);
         let commands = commands.into_iter().zip(0..);
         let commands = commands.map(|(counts, tick)| Command { tick, counts });

@@ -7,11 +7,6 @@ use motion_rtl::input::position_log::{Columns, PositionLog, Sample};
 use motion_rtl::jobs::lead_angle::replay::{settings_for, validate};
 use motion_rtl::jobs::lead_angle::settings::{Detector, Settings, TARGET_RANGE_COUNTS};
 use motion_rtl::scenario::Loaded;
-use motion_rtl::settings::within;
-use std::ops::RangeInclusive;
-
-/// Units of time that a log may have, in ms.
-const TIME_UNITS_MS: RangeInclusive<f64> = 1e-9..=1e7;
 
 /// How far a log may go from its first count: no way to a target is half of what wraps.
 const FARTHEST_COUNTS: u64 = TARGET_RANGE_COUNTS.end().unsigned_abs();
@@ -31,17 +26,16 @@ pub struct Job {
 
 impl Job {
     /// Checks the settings and reads the log.
-    pub fn prepare(source: Source, settings: Settings, columns: &Columns) -> Result<Self, Failure> {
+    pub fn prepare(source: Source, settings: Settings) -> Result<Self, Failure> {
         let loaded = &source.loaded;
         let refuse = |error| loaded.refuse(error);
-        if let Some(seconds) = columns.time_unit_s {
-            within("log_time_unit_ms", seconds * 1e3, &TIME_UNITS_MS).map_err(refuse)?;
-        }
-        let log = source.log(columns)?;
+        settings.ranges().map_err(refuse)?;
+        let columns = settings.columns();
+        let log = source.log(&columns)?;
         if let Some(log) = &log {
             check_log(loaded, log, &settings)?;
         } else {
-            refuse_columns(loaded, columns)?;
+            refuse_columns(loaded, &columns)?;
             settings.validate().map_err(refuse)?;
         }
         let Source { stem, loaded, .. } = source;

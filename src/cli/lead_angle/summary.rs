@@ -4,10 +4,7 @@ use super::Job;
 use super::systems::{EXACT, LEARNING, SECOND_ORDER, System, learner};
 use crate::cli::report::Outcome;
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
-use motion_rtl::jobs::lead_angle::settings::{
-    Action, Comparing, Completion, Detector, Function, History, LeadBy, LeadForm, Placement,
-    Settings, Sign, Targets,
-};
+use motion_rtl::jobs::lead_angle::settings::{Action, LeadBy, Settings, Sign};
 use serde::Serialize;
 use std::ops::Range;
 
@@ -20,32 +17,8 @@ pub struct Summary {
     /// What it has as all others.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// What keeps the positions of the past.
-    pub history: History,
-    /// What the control signal is for.
-    pub action: Action,
-    /// What the position comes from.
-    pub detector: Detector,
-    /// Where the lead comes from.
-    pub lead: LeadBy,
-    /// Which of the equal forms the lead of a time has.
-    pub form: LeadForm,
-    /// What targets count from.
-    pub targets: Targets,
-    /// What the lead is put on.
-    pub placement: Placement,
-    /// When the target is reached.
-    pub comparing: Comparing,
-    /// When a positioning is complete.
-    pub completion: Completion,
-    /// Which way the error counts.
-    pub sign: Sign,
-    /// What is made of error and overrun.
-    pub function: Function,
-    /// Whether times are learned.
-    pub learn: bool,
-    /// Ticks of a CK.
-    pub ck_ticks: u32,
+    /// Settings of the run.
+    pub settings: Settings,
     /// All systems with their errors.
     pub systems: Vec<SystemSummary>,
     /// The system whose lead times are shown: the scenario's own where it learns, or else the one
@@ -215,19 +188,7 @@ impl Summary {
                 complaints: own.map_or(Vec::new(), |(_, run)| complaints(settings, run)),
                 ..Outcome::new("lead_angle", &job.stem, settings.clock_hz, ticks)
             },
-            history: settings.history,
-            action: settings.action,
-            detector: settings.detector,
-            lead: settings.lead,
-            form: settings.form,
-            targets: settings.targets,
-            placement: settings.placement,
-            comparing: settings.comparing,
-            completion: settings.completion,
-            sign: settings.sign,
-            function: settings.function,
-            learn: settings.learn,
-            ck_ticks: settings.ck_ticks,
+            settings: settings.clone(),
             systems: played.iter().map(system_summary).collect(),
             lead_times_of,
             phases: Vec::new(),
@@ -408,13 +369,13 @@ fn warnings(summary: &Summary) -> Vec<String> {
                 "{} of {} positionings missed their target and were {} by hand",
                 system.missed,
                 summary.positionings.len(),
-                match summary.action {
+                match summary.settings.action {
                     Action::Stop => "stopped",
                     Action::Operate => "operated",
                 }
             ));
         }
-        if system.timed_out > 0 && summary.action == Action::Operate {
+        if system.timed_out > 0 && summary.settings.action == Action::Operate {
             all.push(format!(
                 "{} of {} operations had no effect before their time-out: nothing was learned from \
                  them; a longer time_out_ms waits for it",
@@ -431,8 +392,8 @@ fn warnings(summary: &Summary) -> Vec<String> {
             ));
         }
     }
-    let by_time = summary.lead == LeadBy::Time;
-    if !(by_time && summary.learn && summary.sign == Sign::Converging) {
+    let by_time = summary.settings.lead == LeadBy::Time;
+    if !(by_time && summary.settings.learn && summary.settings.sign == Sign::Converging) {
         return all;
     }
     for phase in &summary.phases {

@@ -82,9 +82,8 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         ..fixed.clone()
     };
     let mut none = fixed.clone();
-    none.load_leads_ms.clear();
     for step in &mut none.steps {
-        step.lead_ms = 0.0;
+        (step.lead_ms, step.load_lead_ms) = (0.0, None);
     }
     let (sign, function) = (settings.sign, settings.function);
     let own = match (settings.lead, settings.learn) {

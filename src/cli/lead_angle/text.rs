@@ -34,38 +34,39 @@ impl Report for Summary {
             self.outcome.subject(),
             self.positionings.len(),
             self.outcome.length(),
-            self.ck_ticks
+            self.settings.ck_ticks
         )?;
         writeln!(
             text,
             "{}history {}, {}lead on {}, comparing {}, complete by {}, {}\n",
-            match self.detector {
+            match self.settings.detector {
                 Detector::Incremental => "",
                 Detector::Absolute => "absolute encoder, ",
                 Detector::PhaseShift => "phase-shift detector, ",
                 Detector::Resolver => "resolver, ",
             },
-            name(self.history),
-            match self.form {
+            name(self.settings.history),
+            match self.settings.form {
                 LeadForm::Embodiment => String::new(),
                 form => format!("form {}, ", name(form)),
             },
-            name(self.placement),
-            name(self.comparing),
-            match self.action {
-                Action::Stop => name(self.completion).replace('_', " "),
+            name(self.settings.placement),
+            name(self.settings.comparing),
+            match self.settings.action {
+                Action::Stop => name(self.settings.completion).replace('_', " "),
                 Action::Operate => "effect".to_owned(),
             },
-            match (self.lead, self.learn) {
-                (LeadBy::Speed | LeadBy::Table, _) => format!("lead by {}", name(self.lead)),
+            match (self.settings.lead, self.settings.learn) {
+                (LeadBy::Speed | LeadBy::Table, _) =>
+                    format!("lead by {}", name(self.settings.lead)),
                 (LeadBy::Time, true) => format!(
                     "learning {}, sign {}",
-                    match self.function {
+                    match self.settings.function {
                         Function::FirstOrder => "to first order",
                         Function::SecondOrder => "to second order",
                         Function::Exact => "by the exact relation",
                     },
-                    name(self.sign)
+                    name(self.settings.sign)
                 ),
                 (LeadBy::Time, false) => "not learning".to_owned(),
             }
@@ -73,7 +74,7 @@ impl Report for Summary {
         writeln!(
             text,
             "{:<20}   largest       rms  missed  timed out",
-            match self.action {
+            match self.settings.action {
                 Action::Stop => "stop error in counts",
                 Action::Operate => "effect error, counts",
             }
@@ -101,7 +102,7 @@ impl Report for Summary {
             writeln!(
                 text,
                 "* its time was over: where the body was then, not where it {}\n",
-                match self.action {
+                match self.settings.action {
                     Action::Stop => "stopped",
                     Action::Operate => "took effect",
                 }
@@ -140,7 +141,7 @@ impl Summary {
             } else {
                 ""
             },
-            error_name(self.action),
+            error_name(self.settings.action),
             match self.lead_times_of {
                 Some(name) => format!("; lead of {name}"),
                 None => String::new(),

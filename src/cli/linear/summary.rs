@@ -7,7 +7,7 @@ use super::verdict::complaints;
 use crate::cli::report::Outcome;
 use crate::cli::times::rounded;
 use motion_rtl::jobs::linear_interpolator::measure::Played;
-use motion_rtl::jobs::linear_interpolator::settings::AXIS_NAMES;
+use motion_rtl::jobs::linear_interpolator::settings::{AXIS_NAMES, Settings};
 use serde::Serialize;
 
 /// The summary of a run.
@@ -16,12 +16,8 @@ pub struct Summary {
     /// What it has as all others.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// How the integrator divides.
-    pub variant: &'static str,
-    /// Which axis leads.
-    pub master: &'static str,
-    /// Ticks of a scan.
-    pub scan_ticks: u32,
+    /// Settings of the run.
+    pub settings: Settings,
     /// Scans of the run.
     pub scans: usize,
     /// Whether every cycle ended on its target, stayed as near to its line as the division allows,
@@ -135,11 +131,9 @@ impl Summary {
                     interpolator.ticks,
                 )
             },
-            variant: job.settings.rule.name(),
-            master: job.settings.master.name(),
+            settings: job.settings.clone(),
             other_master: job.other.as_ref().map(|other| other.settings.master.name()),
             interpolator_other_master: other,
-            scan_ticks: job.settings.scan_ticks,
             scans: interpolator.scans,
             dropped_points: job.compiled.dropped,
             interpolator,
@@ -185,7 +179,7 @@ fn warnings(job: &Job, played: &Played) -> Vec<String> {
     for (axis, name) in AXIS_NAMES.iter().enumerate() {
         let scans = played.saturated_scans[axis];
         if scans > 0 {
-            let speed = job.settings.axes[axis].rated_speed_rev_per_min;
+            let speed = job.settings.rated_speed_rev_per_min[axis];
             warnings.push(format!(
                 "{name}: in {scans} scans the position loop asks for more than {speed} rev/min"
             ));

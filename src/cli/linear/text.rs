@@ -20,8 +20,8 @@ impl Report for Summary {
             text,
             "{} ({}, master {}): {} scans, {}\n",
             self.outcome.subject(),
-            self.variant,
-            self.master,
+            self.settings.rule.name(),
+            self.settings.master.name(),
             self.scans,
             self.outcome.length()
         )?;

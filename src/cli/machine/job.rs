@@ -91,8 +91,6 @@ fn key(field: &'static str) -> &'static str {
     match field {
         "line_unit_ticks" | "arc_unit_ticks" => "unit_ticks",
         "sample_period_ms" | "period_ms" => "sample_ticks",
-        "speed_mm_per_s" | "feed_mm_per_s" => "feed_mm_per_min",
-        "rapid_mm_per_s" => "rapid_mm_per_min",
         "normal_acceleration_mm_per_s2" => "acceleration_mm_per_s2",
         field => field,
     }

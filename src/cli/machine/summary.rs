@@ -5,6 +5,7 @@ use super::rows::{self, EndRow, LiftRow, PieceRow};
 use super::verdict::{complaints, steppers_cut_off};
 use crate::cli::report::Outcome;
 use crate::cli::times::rounded;
+use motion_rtl::jobs::machine::Settings;
 use motion_rtl::jobs::machine::job::Played;
 use motion_rtl::jobs::machine::measure::Measured;
 use serde::Serialize;
@@ -15,18 +16,8 @@ pub struct Summary {
     /// What it has as all others.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// T in ticks.
-    pub unit_ticks: u32,
-    /// A scan in ticks.
-    pub scan_ticks: u32,
-    /// CK in ticks.
-    pub ck_ticks: u32,
-    /// Ts in ticks.
-    pub sample_ticks: u32,
-    /// Steps of a millimetre.
-    pub steps_per_mm: [f64; 2],
-    /// Counts of a millimetre.
-    pub counts_per_mm: f64,
+    /// Settings of the run.
+    pub settings: Settings,
     /// Whether both machines came to rest at the job's end, on the nearest step and count.
     pub exact: bool,
     /// Pulses of the steppers, either way.
@@ -88,12 +79,7 @@ impl Summary {
                     played.ticks,
                 )
             },
-            unit_ticks: settings.unit_ticks,
-            scan_ticks: settings.scan_ticks,
-            ck_ticks: settings.ck_ticks,
-            sample_ticks: settings.sample_ticks,
-            steps_per_mm: settings.steps_per_mm,
-            counts_per_mm: settings.counts_per_mm,
+            settings: settings.clone(),
             pulses: played.pulses,
             unattainable_units: job.program.report.unattainable_units,
             times: TimesRow {

@@ -20,10 +20,10 @@ impl Report for Summary {
             "{}: {}; unit time {}, scan {}, CK {}, Ts {} ticks",
             self.outcome.subject(),
             self.outcome.length(),
-            self.unit_ticks,
-            self.scan_ticks,
-            self.ck_ticks,
-            self.sample_ticks
+            self.settings.unit_ticks,
+            self.settings.scan_ticks,
+            self.settings.ck_ticks,
+            self.settings.sample_ticks
         )?;
         let times = &self.times;
         match times.steppers_cut_off {

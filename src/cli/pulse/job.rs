@@ -39,7 +39,7 @@ impl Job {
     /// Compiles an input, for its table or for a run; one of another circuit has no table.
     pub fn prepare(source: Source, is_for_run: bool) -> Result<Self, Failure> {
         let scenario = match &source.loaded.scenario {
-            Scenario::PulseInterpolator(scenario) => Ok(scenario),
+            Scenario::PulseInterpolator(keys) => Ok(&keys.settings),
             Scenario::LinearInterpolator(_) => Err("linear interpolator"),
             Scenario::LeadAngle(_) => Err("lead-angle compensator"),
             Scenario::ArcGenerator(_) => Err("arc generator"),
@@ -80,7 +80,7 @@ impl Job {
         let drawing = source.drawing()?;
         let variant = scenario.variant;
         let conventional_moves = scenario.conventional_moves;
-        let vcd_ticks = scenario.vcd_ticks;
+        let vcd_ticks = source.loaded.scenario.vcd_ticks();
         let settings = scenario.settings(&drawing);
         progress::stage("planning the path");
         let compiled = match is_for_run {

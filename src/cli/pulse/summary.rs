@@ -102,10 +102,10 @@ impl Minima {
     /// The times that are shorter than a driver asks for that wants `timing`.
     pub fn too_short(&self, timing: &StepTiming) -> impl Iterator<Item = String> {
         [
-            ("step high time", self.high, timing.min_high),
-            ("step low time", self.low, timing.min_low),
-            ("direction setup time", self.setup, timing.dir_setup),
-            ("direction hold time", self.hold, timing.dir_hold),
+            ("step high time", self.high, timing.step_high_ticks),
+            ("step low time", self.low, timing.step_low_ticks),
+            ("direction setup time", self.setup, timing.dir_setup_ticks),
+            ("direction hold time", self.hold, timing.dir_hold_ticks),
         ]
         .into_iter()
         .filter_map(|(what, least, limit)| {

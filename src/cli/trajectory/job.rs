@@ -13,7 +13,6 @@ use motion_rtl::path::error::PathError;
 use motion_rtl::path::pieces::Speeds;
 use motion_rtl::plant::TwoMassParameters;
 use motion_rtl::scenario::Loaded;
-use motion_rtl::scenario::trajectory_controller::Scenario;
 use motion_rtl::settings::{Place, SettingError};
 
 /// A path ready to be run.
@@ -39,22 +38,22 @@ pub struct Job {
 
 impl Job {
     /// Plans a path.
-    pub fn prepare(source: Source, scenario: &Scenario) -> Result<Self, Failure> {
-        let (settings, loaded) = (scenario.settings(), &source.loaded);
+    pub fn prepare(source: Source, settings: Settings) -> Result<Self, Failure> {
+        let loaded = &source.loaded;
         let refuse = |error: SettingError| match error.place {
             // All axes are as the one table.
-            Some(Place::Row("axis", _)) if scenario.axis.is_empty() => {
+            Some(Place::Row("axis", _)) if settings.axis.is_empty() => {
                 loaded.refuse(error.at(Place::Table("machine")))
             }
             _ => loaded.refuse(error),
         };
-        let taught = scenario.taught().map_err(refuse)?;
+        let taught = settings.taught(loaded.scenario.input()).map_err(refuse)?;
         let keys = SpeedKeys {
             speeds: Speeds::from(&settings),
-            key: "feed_mm_per_s",
-            rapid: "rapid_mm_per_s",
+            key: "feed_mm_per_min",
+            rapid: "rapid_mm_per_min",
         };
-        let from = scenario.start_mm.unwrap_or_default();
+        let from = settings.start_mm.unwrap_or_default();
         let (drawing, start, pieces) = pieces(&source, from.point, &taught, keys)?;
         let fourth = match &drawing {
             Some(_) if from.w.is_some_and(|w| w != 0.0) => {
@@ -66,13 +65,13 @@ impl Job {
                 from_mm: 0.0,
                 to_mm: drawing.fourth.clone(),
             },
-            None => scenario.taught_w(),
+            None => settings.taught_w(),
         };
-        let fourth = scenario.has_fourth().then_some(fourth);
+        let fourth = settings.has_fourth().then_some(fourth);
         let refuse_path = |error: PathError| fault(loaded, drawing.as_ref(), keys, &error);
         let in_z = pieces.iter().any(|piece| piece.to[2] != start[2]);
-        let axes = scenario.axes(in_z).map_err(refuse)?;
-        let machines = scenario.machines(axes).map_err(refuse)?;
+        let axes = settings.axes(in_z).map_err(refuse)?;
+        let machines = settings.machines(axes).map_err(refuse)?;
         progress::stage("planning the path");
         let plan = |settings: &Settings| {
             let (of, full) = (fourth.as_ref(), &Widths::FULL);

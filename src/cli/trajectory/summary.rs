@@ -7,8 +7,8 @@ use super::verdict::{NOT_SETTLED, compared, complaints};
 use crate::cli::report::Outcome;
 use motion_rtl::circuits::trajectory_controller::Widths;
 use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
-use motion_rtl::jobs::trajectory_controller::each_axis::EachAxis;
-use motion_rtl::jobs::trajectory_controller::load_torque::LoadTorque;
+use motion_rtl::jobs::trajectory_controller::settings::Settings;
+use motion_rtl::path::pieces::Speeds;
 use serde::Serialize;
 
 /// The summary of a run.
@@ -17,32 +17,16 @@ pub struct Summary {
     /// What it has as all others.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// The correction in the waves.
-    pub correction: &'static str,
-    /// How the models round.
-    pub rounding: &'static str,
+    /// Settings of the run.
+    pub settings: Settings,
     /// Axes.
     pub axes: usize,
     /// Δt in ticks.
     pub period_ticks: u32,
     /// Ticks that the circuit needs of them.
     pub period_ticks_needed: u64,
-    /// Δt.
-    pub period_ms: f64,
-    /// K1.
-    pub k1_per_s: EachAxis,
-    /// K2.
-    pub k2_per_s: EachAxis,
-    /// Contour error that the feed is limited to.
-    pub contour_tolerance_mm: Option<f64>,
     /// Gains of the feedback, along the path and across it.
     pub feedback_gains: [f64; 2],
-    /// What the feed-forward of each axis is told of its inertia, as a part of it.
-    pub inertia_factor: EachAxis,
-    /// Torques on the loads from outside.
-    pub load_torque: Vec<LoadTorque>,
-    /// Counts of a millimetre.
-    pub counts_per_mm: f64,
     /// Ticks of it in which the path was written, before it began.
     pub loading_ticks: u64,
     /// Interpolation periods.
@@ -121,19 +105,11 @@ impl Summary {
                     traced.ticks,
                 )
             },
-            correction: settings.correction.name(),
-            rounding: settings.rounding.name(),
+            settings: settings.clone(),
             axes: job.axes(),
             period_ticks: program.period_ticks,
             period_ticks_needed: job.period_ticks_needed(),
-            period_ms: settings.period_ms,
-            k1_per_s: settings.k1_per_s.clone(),
-            k2_per_s: settings.k2_per_s.clone(),
-            contour_tolerance_mm: settings.contour_tolerance_mm,
             feedback_gains: program.feedback.parts(&Widths::FULL),
-            inertia_factor: settings.inertia_factor.clone(),
-            load_torque: settings.load_torque.clone(),
-            counts_per_mm: settings.counts_per_mm,
             loading_ticks: traced.start,
             periods: traced.periods,
             path: PathSummary {
@@ -201,10 +177,10 @@ fn warnings(job: &Job, runs: &Runs) -> Vec<String> {
 }
 
 /// Feeds that an acceleration time also goes for, where that could be taken for the time to
-/// `feed_mm_per_s` alone.
+/// `feed_mm_per_min` alone.
 fn other_feeds(job: &Job) -> Option<String> {
     let time_ms = job.settings.acceleration_time_ms?;
-    let feed = job.settings.feed_mm_per_s?;
+    let feed = Speeds::from(&job.settings).wanted?;
     let stretches = job.program.path.stretches.iter();
     let others = stretches.map(|stretch| stretch.speed);
     let other = others.filter(|&speed| speed != feed).reduce(f64::min)?;

@@ -22,8 +22,8 @@ impl Report for Summary {
             text,
             "{} ({}, {}): {} axes, {} periods, {}",
             self.outcome.subject(),
-            self.correction,
-            self.rounding,
+            self.settings.correction.name(),
+            self.settings.rounding.name(),
             self.axes,
             self.periods,
             self.outcome.length()
@@ -32,12 +32,12 @@ impl Report for Summary {
             text,
             "a period of {} ms in {} ticks, of which the circuit needs {}; K1 = {}/s, K2 = {}/s; a \
              count is {:.3} um",
-            tidy(self.period_ms),
+            tidy(self.settings.period_ms),
             self.period_ticks,
             self.period_ticks_needed,
-            self.k1_per_s,
-            self.k2_per_s,
-            1e3 / self.counts_per_mm
+            self.settings.k1_per_s,
+            self.settings.k2_per_s,
+            1e3 / self.settings.counts_per_mm
         )?;
         let [tangential, normal] = self.feedback_gains;
         writeln!(
@@ -69,7 +69,7 @@ fn plural(count: usize, what: &str) -> String {
 impl Summary {
     /// What the servo controls do not know of.
     fn disturbances(&self, text: &mut String) -> fmt::Result {
-        for torque in &self.load_torque {
+        for torque in &self.settings.load_torque {
             let until = torque.to_s.map_or("on".to_owned(), |s| format!("to {s} s"));
             let axis = AXIS_NAMES[torque.axis.index()];
             let (nm, from) = (torque.torque_nm, torque.from_s);
@@ -78,13 +78,13 @@ impl Summary {
                 "a torque of {nm} Nm on the load of {axis} from {from} s {until}"
             )?;
         }
-        let told = &self.inertia_factor;
+        let told = &self.settings.inertia_factor;
         let wrong = *told != EachAxis::All(1.0);
         if wrong {
             writeln!(text, "the feed-forward is told {told} of the inertia")?;
         }
         let shown = self.corrections.iter().find(|row| row.in_waves);
-        if (wrong || !self.load_torque.is_empty())
+        if (wrong || !self.settings.load_torque.is_empty())
             && let Some(row) = shown
         {
             let off = |axis: &AxisRow| format!("{} {} um", axis.axis, fixed(axis.off_model_um, 1));
@@ -97,7 +97,7 @@ impl Summary {
     /// What the feed is limited to, and what that costs.
     fn tolerance(&self, text: &mut String) -> fmt::Result {
         let full = self.corrections.iter().find(|row| row.full_feed);
-        let Some(mm) = self.contour_tolerance_mm else {
+        let Some(mm) = self.settings.contour_tolerance_mm else {
             return Ok(());
         };
         let full = full.map(|full| format!(", at full feed {:.3} s", full.planned_seconds));

@@ -91,7 +91,7 @@ mod tests {
         let Scenario::TrajectoryController(scenario) = source.loaded.scenario.clone() else {
             panic!("another circuit");
         };
-        let job = Job::prepare(source, &scenario).unwrap();
+        let job = Job::prepare(source, scenario.settings).unwrap();
         let lengths = lengths(&job.program.records, &Widths::FULL);
         let periods = lengths.into_iter().zip(0..).map(|(length, tick)| {
             let exact = job.program.path.point(length as f64);

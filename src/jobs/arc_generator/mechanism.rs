@@ -5,7 +5,7 @@
 
 use crate::input::Point;
 use crate::path::vector::{dot, sub};
-use crate::settings::{Place, SettingError, within};
+use crate::settings::{Place, SettingError, settings};
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
@@ -16,13 +16,15 @@ pub const DAMPING_RANGE: RangeInclusive<f64> = 0.0..=0.9;
 /// Number of evaluations between two commands and, after the last, per period.
 const LOOKS: u32 = 16;
 
-/// Mass connected to its command by a spring and a damper, equal in x, y and z.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mechanism {
-    /// Natural frequency in Hz.
-    pub frequency_hz: f64,
-    /// Damping ratio.
-    pub damping: f64,
+settings! {
+    /// A mass that hangs on its command by a spring and a damper, alike in x, y and z.
+    #[derive(Copy)]
+    pub struct Mechanism {
+        /// Natural frequency.
+        pub frequency_hz [required]: f64 = 1.0, in FREQUENCY_RANGE_HZ;
+        /// Damping, as a part of the critical one.
+        pub damping: f64 = 0.0, in DAMPING_RANGE;
+    }
 }
 
 /// Vibration caused by commands.
@@ -40,8 +42,7 @@ impl Mechanism {
     /// # Errors
     /// Returns an error that names the first field at fault, its value and the allowed range.
     pub fn validate(&self) -> Result<(), SettingError> {
-        within("frequency_hz", self.frequency_hz, &FREQUENCY_RANGE_HZ)
-            .and_then(|()| within("damping", self.damping, &DAMPING_RANGE))
+        self.ranges()
             .map_err(|error| error.at(Place::Table("mechanism")))
     }
 }

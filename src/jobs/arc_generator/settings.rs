@@ -1,12 +1,17 @@
-//! What the arc generator is run with: clock and sampling, machine, motion.
+//! Settings of the arc generator: clock and sampling, machine, motion.
 
+use super::mechanism::Mechanism;
 use super::prepare::Timing;
 use crate::circuits::arc_generator::{ArcGenerator, Blend, Rounding, Widths};
+use crate::input::Point;
+use crate::jobs::taught::TaughtPiece;
+use crate::path::arm::Arm;
 use crate::path::pieces::Speeds;
 use crate::settings::{
-    CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SettingError, whole, whole_ticks, within,
+    CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SettingError, choices, settings, whole, whole_ticks,
+    within,
 };
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
 /// Shortest sampling period in ticks: a record is fetched and a rotation done within it.
@@ -18,11 +23,11 @@ pub const fn least_sample_ticks(blend: Blend) -> u64 {
     ArcGenerator::new(Rounding::Nearest, blend).least_period()
 }
 
-/// Speeds that are accepted, in mm/s.
-pub const SPEED_RANGE_MM_PER_S: RangeInclusive<f64> = 1e-6..=1e9;
+/// Speeds that are accepted.
+pub const SPEED_RANGE_MM_PER_MIN: RangeInclusive<f64> = 6e-5..=6e10;
 
-/// What becomes of a piece that is too short or too tight for its speed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+/// Treatment of a piece that is too short or too tight for its speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ShortPieces {
     /// It is refused, and the largest speed that fits is said.
@@ -32,46 +37,41 @@ pub enum ShortPieces {
     Slower,
 }
 
-/// Settings of [`prepare`](super::prepare::prepare) and of a run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Settings {
-    /// Reference clock in Hz.
-    pub clock_hz: u64,
-    /// Ts.
-    pub sample_period_ms: f64,
-    /// 2ta: duration of a blend.
-    pub acceleration_ms: f64,
-    /// Counts of a position command per millimetre, of every coordinate.
-    pub counts_per_mm: f64,
-    /// Speed of the pieces that have none of their own.
-    pub speed_mm_per_s: Option<f64>,
-    /// Speed of rapid moves.
-    pub rapid_mm_per_s: f64,
-    /// Largest turn between two pieces that are joined without a stop.
-    pub corner_deg: f64,
-    /// How the rotation rounds.
-    pub rounding: Rounding,
-    /// How blends and lines are made.
-    pub blend: Blend,
-    /// What becomes of a piece that is too short or too tight for its speed.
-    pub short_pieces: ShortPieces,
-}
+choices!(Blend, Rounding, ShortPieces);
 
-impl Default for Settings {
-    /// 1 µm a count, 1 ms of sampling at 1 MHz, blends of 64 ms.
-    fn default() -> Self {
-        Self {
-            clock_hz: 1_000_000,
-            sample_period_ms: 1.0,
-            acceleration_ms: 64.0,
-            counts_per_mm: 1000.0,
-            speed_mm_per_s: None,
-            rapid_mm_per_s: 200.0,
-            corner_deg: 20.0,
-            rounding: Rounding::default(),
-            blend: Blend::default(),
-            short_pieces: ShortPieces::default(),
-        }
+settings! {
+    /// Settings of a path, its pieces and a run. Default: 1 µm a count, 1 ms of sampling at 1 MHz,
+    /// blends of 64 ms.
+    pub struct Settings {
+        /// Start of the first piece.
+        pub start_mm: Point = [0.0; 3];
+        /// Pieces of the path, where it is no drawing.
+        pub piece: Vec<TaughtPiece> = Vec::new();
+        /// Reference clock.
+        pub clock_hz: u64 = 1_000_000, in CLOCK_RANGE_HZ;
+        /// Ts: time from one position command to the next, in whole ticks.
+        pub sample_period_ms: f64 = 1.0, "as many ticks as the circuit needs, or more";
+        /// 2ta: duration of a blend, an even number of samples.
+        pub acceleration_ms: f64 = 64.0, "2 samples to what the words hold";
+        /// Counts of a position command per millimetre, of every coordinate.
+        pub counts_per_mm: f64 = 1000.0, in COUNTS_PER_MM_RANGE;
+        /// Speed of the pieces that have none of their own.
+        pub feed_mm_per_min: Option<f64> = None, in SPEED_RANGE_MM_PER_MIN;
+        /// Speed with the pen up, and of G0.
+        pub rapid_mm_per_min: f64 = 12_000.0, in SPEED_RANGE_MM_PER_MIN;
+        /// Largest turn between two pieces that are joined without a stop.
+        pub corner_deg: f64 = 20.0, in 0.0..=180.0;
+        /// Rounding of the rotation.
+        pub rounding: Rounding = Rounding::default();
+        /// Way in which blends and lines are made.
+        pub blend: Blend = Blend::default();
+        /// Treatment of a piece that is too short or too tight for its speed: it is refused, or runs
+        /// at the largest speed that fits.
+        pub short_pieces: ShortPieces = ShortPieces::default();
+        /// Arm whose hand follows the commands.
+        pub arm: Option<Arm> = None;
+        /// Elastic mechanism that follows the commands.
+        pub mechanism: Option<Mechanism> = None;
     }
 }
 
@@ -106,14 +106,7 @@ impl Settings {
     pub fn timing(&self, widths: &Widths) -> Result<Timing, SettingError> {
         let ticks = self.sample_ticks(widths)?;
         let blend_samples = self.blend_samples(widths)?;
-        let counts = self.counts_per_mm;
-        within("counts_per_mm", counts, &COUNTS_PER_MM_RANGE)?;
-        if let Some(speed) = self.speed_mm_per_s {
-            within("speed_mm_per_s", speed, &SPEED_RANGE_MM_PER_S)?;
-        }
-        let rapid = self.rapid_mm_per_s;
-        within("rapid_mm_per_s", rapid, &SPEED_RANGE_MM_PER_S)?;
-        within("corner_deg", self.corner_deg, &(0.0..=180.0))?;
+        self.ranges()?;
         Ok(Timing {
             sample_s: f64::from(ticks) / self.clock_hz as f64,
             blend_samples,
@@ -150,8 +143,8 @@ impl Settings {
 impl From<&Settings> for Speeds {
     fn from(settings: &Settings) -> Self {
         Speeds {
-            wanted: settings.speed_mm_per_s,
-            rapid: settings.rapid_mm_per_s,
+            wanted: settings.feed_mm_per_min.map(|feed| feed / 60.0),
+            rapid: settings.rapid_mm_per_min / 60.0,
         }
     }
 }

@@ -19,6 +19,8 @@ pub(super) struct ControlComputer<'a> {
     arming: bool,
     /// Number of steps whose time for the other load has been set.
     changed: usize,
+    /// Steps whose times are set when the load changes: all or none.
+    load_leads: usize,
 }
 
 impl<'a> ControlComputer<'a> {
@@ -28,6 +30,10 @@ impl<'a> ControlComputer<'a> {
             begun: 0,
             arming: false,
             changed: 0,
+            load_leads: match settings.has_load_leads() {
+                true => settings.steps.len(),
+                false => 0,
+            },
         }
     }
 
@@ -112,7 +118,7 @@ impl<'a> ControlComputer<'a> {
             false => None,
         };
         let change = self.settings.load_change_after == u32::try_from(self.begun).ok();
-        let waits = change && self.changed < self.settings.load_leads_ms.len();
+        let waits = change && self.changed < self.load_leads;
         let before = (i.write_target | i.write_time, i.run);
         self.write(i, write);
         // Learned times are written only during a step, so none is refused between steps.
@@ -129,7 +135,10 @@ impl<'a> ControlComputer<'a> {
             TimeSource::Setter => settings.steps.get(place).map(|step| (place, step.lead_ms)),
         };
         let next = match changes {
-            true => settings.load_leads_ms[self.changed].map(|ms| (self.changed, ms)),
+            true => {
+                let step = settings.steps.get(self.changed);
+                step.and_then(|step| Some((self.changed, step.load_lead_ms?)))
+            }
             false => None,
         };
         self.changed += usize::from(changes);

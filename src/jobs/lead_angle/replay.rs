@@ -82,7 +82,9 @@ pub fn settings_for(log: &PositionLog, settings: &Settings) -> Settings {
         settings.time_out_ms = ck_ms;
     }
     // A log has a single load.
-    settings.load_leads_ms.clear();
+    for step in &mut settings.steps {
+        step.load_lead_ms = None;
+    }
     settings.standstill_ms = ck_ms;
     settings.rest_ms = ck_ms;
     settings

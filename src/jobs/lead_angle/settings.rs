@@ -1,4 +1,4 @@
-//! What the lead-angle compensator is run with: clock and CK, steps, learning, body and load.
+//! Settings of the lead-angle compensator: clock and CK, steps, learning, body and load.
 
 mod detector;
 mod lead;
@@ -8,8 +8,9 @@ use super::job::WIDTHS;
 use crate::circuits::lead_angle::Memory;
 use crate::circuits::lead_angle::codes::LARGEST;
 pub use crate::circuits::lead_angle::{Comparing, Detector, Function, LeadForm, Placement, Sign};
+use crate::input::position_log::Columns;
 use crate::plant::{BodyParameters, Load, ResolverParameters};
-use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, within};
+use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, choices, settings, within};
 pub use detector::{CONVERSION_TICKS, PITCH_RANGE_COUNTS, SAMPLING_RANGE_PPM, TURN_RANGE_COUNTS};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -109,140 +110,131 @@ pub enum TimeSource {
     Setter,
 }
 
-/// One step of the sequence.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
-    /// Sx: where to stop, in counts from where [`Targets`] says.
-    pub target: i64,
-    /// Speed on the way, in counts a second.
-    pub speed_counts_per_s: u32,
-    /// Δt to begin with; 0 for none.
-    pub lead_ms: f64,
+choices!(
+    Action, Comparing, Completion, Detector, Function, History, LeadBy, LeadForm, Placement, Sign,
+    Targets, TimeSource,
+);
+
+settings! {
+    /// One step of the sequence.
+    #[derive(Copy)]
+    pub struct Step {
+        /// Sx: position to stop at, counted from where `targets` says.
+        pub target [required]: i64 = 0, in TARGET_RANGE_COUNTS;
+        /// Speed on the way.
+        pub speed_counts_per_s [required]: u32 = SPEED_UNIT_COUNTS_PER_S,
+            "a multiple of 10 that the detector follows";
+        /// Δt: lead time to begin with; 0 for none.
+        pub lead_ms: f64 = 0.0, "whole CKs that a code has";
+        /// Lead time that is set when the load changes, before the next positioning; without it the
+        /// step goes on with what it has.
+        pub load_lead_ms: Option<f64> = None, "whole CKs that a code has";
+    }
 }
 
-/// Settings of a run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Settings {
-    /// Reference clock in Hz.
-    pub clock_hz: u64,
-    /// Ticks of a CK.
-    pub ck_ticks: u32,
-    /// The steps, run over and over from a rest at position 0.
-    pub steps: Vec<Step>,
-    /// What their targets count from.
-    pub targets: Targets,
-    /// What the control signal is for.
-    pub action: Action,
-    /// Time from the control signal until an operation takes effect.
-    pub operation_delay_s: f64,
-    /// The factor of that time from the load change on.
-    pub load_delay_factor: f64,
-    /// What the position comes from (10).
-    pub detector: Detector,
-    /// How much faster than a CK of `ck_ticks` an absolute encoder's sampling clock is, in parts per
-    /// million.
-    pub sampling_clock_ppm: f64,
-    /// The resolver, where it is the detector.
-    pub resolver: ResolverParameters,
-    /// Where the lead comes from.
-    pub lead: LeadBy,
-    /// Which of the equal forms the lead of a time has.
-    pub form: LeadForm,
-    /// Where the lead is placed.
-    pub placement: Placement,
-    /// When the comparator gives the control signal.
-    pub comparing: Comparing,
-    /// The sign of the stop error.
-    pub sign: Sign,
-    /// What is made of error and overrun.
-    pub function: Function,
-    /// What keeps the positions of the past.
-    pub history: History,
-    /// The time data are corrected after each positioning.
-    pub learn: bool,
-    /// All steps share the time data of step 0.
-    pub common_time: bool,
-    /// Where the first time data come from (25).
-    pub time_source: TimeSource,
-    /// Δt by step that is set when the load changes, before the next positioning; empty for none.
-    pub load_leads_ms: Vec<Option<f64>>,
-    /// What a step without time data begins to learn with; 0 for nothing.
-    pub seed_ms: f64,
-    /// When a positioning is complete.
-    pub completion: Completion,
-    /// How long the position must stay for a positioning to be complete.
-    pub standstill_ms: f64,
-    /// How long a positioning may take after the control signal.
-    pub time_out_ms: f64,
-    /// Pause between positionings.
-    pub rest_ms: f64,
-    /// Time over which the conventional compensator (Fig. 7) measures the speed.
-    pub speed_gate_ms: f64,
-    /// What it multiplies the speed with (a).
-    pub speed_lead_ms: f64,
-    /// The same for each step, which the control computer sets; empty where it is the same for all.
-    pub speed_leads_ms: Vec<f64>,
-    /// How far before its target each switch of the simplest conventional system stands, in counts;
-    /// without it, as far as the first stop of its step wants.
-    pub switch_counts: Option<u32>,
-    /// How far before the target of a step its control signal comes, whatever else the lead does;
-    /// empty for none.
-    pub switches_counts: Vec<u32>,
-    /// How many positionings there are in all.
-    pub positionings: u32,
-    /// How many there are before the load changes; without it the load stays.
-    pub load_change_after: Option<u32>,
-    /// The load from then on.
-    pub load: Load,
-    /// Drive, body, brake and encoder.
-    pub body: BodyParameters,
+settings! {
+    /// Settings of a run. Default: a rotary table with a CK of 0.1 ms at 1 MHz.
+    pub struct Settings {
+        /// Column of the log that has the counts, by name or number; without it the column `counts`,
+        /// or else the one of whole numbers that is no index. The summary names it.
+        pub log_column: Option<String> = None;
+        /// Column of the log that has the times; without it the column `time`, or else the one of
+        /// numbers that do not fall.
+        pub log_time_column: Option<String> = None;
+        /// Unit of the log's times. Without it that of the header, as in `Time [s]` or `time_ms`, or
+        /// else of s, ms, us and ns the one with which the median step is 10 us to 1 s.
+        pub log_time_unit_ms: Option<f64> = None, in 1e-9..=1e7;
+        /// Reference clock.
+        pub clock_hz: u64 = 1_000_000, in CLOCK_RANGE_HZ;
+        /// Period of CK.
+        pub ck_ticks: u32 = 100, in CK_RANGE_TICKS;
+        /// Steps, run over and over from a rest at position 0.
+        pub steps as "step" [required]: Vec<Step> = vec![step(15_000, 40_000), step(0, 40_000)],
+            "1 to 16; 1 only with relative targets or for one positioning";
+        /// Origin of targets: the start, or with `relative` the target before.
+        pub targets: Targets = Targets::default();
+        /// Purpose of the control signal: to stop the body, or an operation in passing.
+        pub action: Action = Action::default();
+        /// Time from the control signal until an operation takes effect.
+        pub operation_delay_s: f64 = 0.02, in 0.0..=10.0;
+        /// Factor of that time from the load change on.
+        pub load_delay_factor: f64 = 1.0, in 1e-3..=1e3;
+        /// Source of the position (10): an incremental encoder; an absolute one of a turn of
+        /// `counts_per_rev`, an even number up to 131,072, with CK as its sampling clock; a
+        /// phase-shift transducer with CK as its carrier, whose turn has whole pitches of `ck_ticks`
+        /// counts, 16 to 131,072; or a resolver with CK as its conversions, of 19 ticks at least.
+        pub detector: Detector = Detector::default();
+        /// Excess of an absolute encoder's sampling clock over CK.
+        pub sampling_clock_ppm: f64 = 0.0, in SAMPLING_RANGE_PPM;
+        /// Source of the lead: the way of the last Δt, or, as in Fig. 7, the measured speed times a
+        /// parameter, or a memory by speed. A log is predicted with `time` or `speed`.
+        pub lead: LeadBy = LeadBy::default();
+        /// Form of the lead of a time, of those that are equal.
+        pub form: LeadForm = LeadForm::default();
+        /// Place of the lead: on the position, on the target, or half on each.
+        pub placement: Placement = Placement::default();
+        /// Condition of the control signal: the prediction crosses the target, or equals it, as the
+        /// text has it.
+        pub comparing: Comparing = Comparing::default();
+        /// Sign of the stop error; `literal` is the text's.
+        pub sign: Sign = Sign::default();
+        /// Next lead time as a function of lead time, error and overrun.
+        pub function: Function = Function::default();
+        /// Memory of past positions (11).
+        pub history: History = History::default();
+        /// True if lead times are corrected after each positioning.
+        pub learn: bool = true;
+        /// True if all steps share the lead time of step 0.
+        pub common_time: bool = false;
+        /// Source of the first lead times (25): there at power-on, or written by the control computer.
+        pub time_source: TimeSource = TimeSource::default();
+        /// Lead time with which a step without one begins to learn; 0 for none.
+        pub seed_ms: f64 = 20.0, "whole CKs that a code has";
+        /// End of a positioning (26): the body has stood still, or `time_out_ms` after the control
+        /// signal at the latest; with `fixed_time` always then.
+        pub completion: Completion = Completion::default();
+        /// Time that the position must stay for a positioning to be complete.
+        pub standstill_ms: f64 = 5.0, "1 to 65535 CKs";
+        /// Time that a positioning may take after the control signal.
+        pub time_out_ms: f64 = 1000.0, "1 to 65535 CKs";
+        /// Pause between positionings.
+        pub rest_ms: f64 = 20.0, "1 to 65535 CKs";
+        /// Time over which the conventional compensator of Fig. 7 measures the speed.
+        pub speed_gate_ms: f64 = 5.0, "1 to 65535 CKs";
+        /// Parameter by which it multiplies the speed (a).
+        pub speed_lead_ms: f64 = 25.0, "from 0";
+        /// Distance of each displaced switch from its target; without it as far as the first stop of
+        /// its step is off.
+        pub switch_counts: Option<u32> = None, "less than any way";
+        /// Number of positionings.
+        pub positionings: u32 = 24, in POSITIONINGS_RANGE;
+        /// Number of positionings before the load changes; without it the load stays.
+        pub load_change_after: Option<u32> = None, "1 to positionings";
+    }
+    flat {
+        /// Resolver, where it is the detector.
+        pub resolver: ResolverParameters = ResolverParameters::default();
+        /// Load from the load change on.
+        pub load: Load = Load::default();
+        /// Drive, body, brake and encoder.
+        pub body: BodyParameters = BodyParameters::default();
+    }
+    beside {
+        /// Parameter of the conventional compensator for each step, which the control computer sets;
+        /// empty where all have `speed_lead_ms`.
+        pub speed_leads_ms: Vec<f64> = Vec::new();
+        /// Distance of each step's control signal from its target, in counts, whatever else the lead
+        /// does; empty for none.
+        pub switches_counts: Vec<u32> = Vec::new();
+    }
 }
 
-impl Default for Settings {
-    /// A rotary table to and fro, a CK of 0.1 ms at 1 MHz.
-    fn default() -> Self {
-        let step = |target, speed_counts_per_s| Step {
-            target,
-            speed_counts_per_s,
-            lead_ms: 0.0,
-        };
-        Self {
-            clock_hz: 1_000_000,
-            ck_ticks: 100,
-            steps: vec![step(15_000, 40_000), step(0, 40_000)],
-            targets: Targets::default(),
-            action: Action::default(),
-            operation_delay_s: 0.02,
-            load_delay_factor: 1.0,
-            detector: Detector::default(),
-            sampling_clock_ppm: 0.0,
-            resolver: ResolverParameters::default(),
-            lead: LeadBy::default(),
-            form: LeadForm::default(),
-            placement: Placement::default(),
-            comparing: Comparing::default(),
-            completion: Completion::default(),
-            sign: Sign::default(),
-            function: Function::default(),
-            history: History::default(),
-            learn: true,
-            common_time: false,
-            time_source: TimeSource::default(),
-            load_leads_ms: Vec::new(),
-            seed_ms: 20.0,
-            standstill_ms: 5.0,
-            time_out_ms: 1000.0,
-            rest_ms: 20.0,
-            speed_gate_ms: 5.0,
-            speed_lead_ms: 25.0,
-            speed_leads_ms: Vec::new(),
-            switch_counts: None,
-            switches_counts: Vec::new(),
-            positionings: 24,
-            load_change_after: None,
-            load: Load::NONE,
-            body: BodyParameters::default(),
-        }
+/// A step without a lead.
+fn step(target: i64, speed_counts_per_s: u32) -> Step {
+    Step {
+        target,
+        speed_counts_per_s,
+        ..Step::default()
     }
 }
 
@@ -251,6 +243,22 @@ impl Settings {
     #[must_use]
     pub fn ck_ms(&self) -> f64 {
         1e3 * f64::from(self.ck_ticks) / self.clock_hz as f64
+    }
+
+    /// Returns the columns to take from a position log.
+    #[must_use]
+    pub fn columns(&self) -> Columns {
+        Columns {
+            time: self.log_time_column.clone(),
+            counts: self.log_column.clone(),
+            time_unit_s: self.log_time_unit_ms.map(|ms| ms / 1e3),
+        }
+    }
+
+    /// True if some step has a lead time for the load from the load change on.
+    #[must_use]
+    pub fn has_load_leads(&self) -> bool {
+        self.steps.iter().any(|step| step.load_lead_ms.is_some())
     }
 
     /// Where a positioning, by its number from 0 on, is to stop, in counts from the start.
@@ -327,8 +335,7 @@ impl Settings {
 
     /// Checks every field by itself.
     pub(super) fn validate_fields(&self) -> Result<(), SettingError> {
-        within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
-        within("ck_ticks", self.ck_ticks, &CK_RANGE_TICKS)?;
+        self.ranges()?;
         let count = self.steps.len();
         if !STEPS_RANGE.contains(&count) {
             let (least, most) = STEPS_RANGE.into_inner();
@@ -368,7 +375,6 @@ impl Settings {
             let farthest = (0..count).map(|step| self.farthest_switch(step)).min();
             within("switch_counts", counts, &(0..=farthest.unwrap_or(0)))?;
         }
-        within("positionings", self.positionings, &POSITIONINGS_RANGE)?;
         if let Some(after) = self.load_change_after {
             within("load_change_after", after, &(1..=self.positionings))?;
         }
@@ -376,10 +382,7 @@ impl Settings {
             let allowed = "standstill with action = \"operate\": its effect is what it waits for";
             return Err(SettingError::value("completion", "fixed_time", allowed));
         }
-        within("operation_delay_s", self.operation_delay_s, &(0.0..=10.0))?;
-        within("load_delay_factor", self.load_delay_factor, &(1e-3..=1e3))?;
-        self.load.validate()?;
-        self.body.validate()
+        Ok(())
     }
 
     fn validate_step(&self, index: usize) -> Result<(), SettingError> {
@@ -387,8 +390,9 @@ impl Settings {
             target,
             speed_counts_per_s: speed,
             lead_ms,
+            ..
         } = self.steps[index];
-        within("target", target, &TARGET_RANGE_COUNTS)?;
+        self.steps[index].ranges()?;
         let before = (index + self.steps.len() - 1) % self.steps.len();
         if self.targets == Targets::Relative && target == 0 {
             return Err(SettingError::value("target", target, "a way other than 0"));

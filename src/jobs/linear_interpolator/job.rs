@@ -238,7 +238,7 @@ pub fn play_each<const N: usize>(
 ) -> Result<Played, JobError> {
     settings.validate()?;
     let tick_s = 1.0 / settings.clock_hz as f64;
-    let [x, y] = &settings.axes;
+    let [x, y] = [0, 1].map(|axis| settings.axis(axis));
     let servos = [
         ServoAxis::new(&x.servo(), tick_s)?,
         ServoAxis::new(&y.servo(), tick_s)?,

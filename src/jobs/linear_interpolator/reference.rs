@@ -294,7 +294,7 @@ pub fn play<const N: usize>(
             motor: motors.map(|motor| motor.position),
         });
         for axis in 0..2 {
-            motors[axis].advance(&settings.axes[axis], at[axis], scan_s);
+            motors[axis].advance(&settings.axis(axis), at[axis], scan_s);
         }
         let most = i64::from(settings.in_position_counts);
         played.saturated_scans = motors.map(|motor| motor.saturated_scans);

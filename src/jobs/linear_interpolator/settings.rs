@@ -1,13 +1,14 @@
-//! What the linear interpolator is run with: clock and scan, machine, motion, axes.
+//! Settings of the linear interpolator: clock and scan, machine, motion, axes.
 
 use super::profile::speed_word;
 use super::targets::{LATENCY_TICKS, LONGEST_RAMP};
 use crate::circuits::linear_interpolator::{MasterAxis, Rule};
 use crate::plan::FEED_RANGE;
 use crate::settings::{
-    CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, IN_POSITION_RANGE, Place, SettingError, WholeTime, within,
+    CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, IN_POSITION_RANGE, Place, SettingError, WholeTime, Within,
+    choices, settings, within,
 };
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
 /// Scans that are accepted, in ticks: the dividers must be done before the scan is over.
@@ -16,8 +17,8 @@ pub const SCAN_RANGE_TICKS: RangeInclusive<u32> = LATENCY_TICKS..=16_777_215;
 /// Names of the axes.
 pub const AXIS_NAMES: [&str; 2] = ["x", "y"];
 
-/// What becomes of a move that is too short to reach its speed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+/// Change to a move that is too short to reach its speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ShortMoves {
     /// It keeps its acceleration: the times become shorter.
@@ -54,70 +55,59 @@ impl AxisSettings {
     }
 }
 
-/// Settings of [`compile`](super::targets::compile) and of a run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Settings {
-    /// How the integrator divides.
-    pub rule: Rule,
-    /// Which axis leads.
-    pub master: MasterAxis,
-    /// Reference clock in Hz.
-    pub clock_hz: u64,
-    /// Ticks of a scan.
-    pub scan_ticks: u32,
-    /// Encoder counts per millimetre of X and of Y.
-    pub counts_per_mm: [f64; 2],
-    /// Feed of the moves that set none, in mm/min.
-    pub feed_mm_per_min: f64,
-    /// Speed of rapid moves, in mm/min.
-    pub rapid_mm_per_min: f64,
-    /// 100 % speed of each axis in mm/min, to which the times below are, and the fastest of a move;
-    /// without it the faster of the two above.
-    pub full_speed_mm_per_min: Option<f64>,
-    /// Time from rest to 100 % speed.
-    pub acceleration_ms: f64,
-    /// Time from 100 % speed to rest.
-    pub deceleration_ms: f64,
-    /// What becomes of a move that is too short to reach its speed.
-    pub short_moves: ShortMoves,
-    /// Largest deviation of a chord from its arc.
-    pub chord_tolerance_mm: f64,
-    /// A cycle begins only when both axes are in position.
-    pub exact_stop: bool,
-    /// Largest position error of an axis that is in position.
-    pub in_position_counts: u32,
-    /// X and Y.
-    pub axes: [AxisSettings; 2],
-}
+choices!(MasterAxis, Rule, ShortMoves);
 
-impl Default for Settings {
-    /// A small plotter: 5 µm a count, 4000 counts a revolution, 3000 rev/min, 1 ms of scan at 1 MHz.
-    fn default() -> Self {
-        Self {
-            rule: Rule::default(),
-            master: MasterAxis::default(),
-            clock_hz: 1_000_000,
-            scan_ticks: 1000,
-            counts_per_mm: [200.0; 2],
-            feed_mm_per_min: 6000.0,
-            rapid_mm_per_min: 18_000.0,
-            full_speed_mm_per_min: None,
-            acceleration_ms: 100.0,
-            deceleration_ms: 100.0,
-            short_moves: ShortMoves::default(),
-            chord_tolerance_mm: 0.01,
-            exact_stop: true,
-            in_position_counts: 4,
-            axes: [AxisSettings {
-                position_gain_per_s: 40.0,
-                rated_speed_rev_per_min: 3000.0,
-                counts_per_rev: 4000,
-                velocity_loop_ms: 2.0,
-                inertia_kg_m2: 3e-5,
-                max_torque_nm: 0.9,
-                friction_nm: 0.0,
-            }; 2],
-        }
+settings! {
+    /// Settings of [`compile`](super::targets::compile) and of a run. Default: a small plotter with
+    /// 5 µm a count, 4000 counts a revolution, 3000 rev/min, 1 ms of scan at 1 MHz. Lists are of X
+    /// and of Y.
+    pub struct Settings {
+        /// Rule by which the integrator 24 rounds.
+        pub rule as "variant": Rule = Rule::default();
+        /// Axis with the position pattern: the one with the longer way, or always `x` or `y`.
+        pub master: MasterAxis = MasterAxis::default();
+        /// Reference clock.
+        pub clock_hz: u64 = 1_000_000, in CLOCK_RANGE_HZ;
+        /// Period of the scan.
+        pub scan_ticks: u32 = 1000, in SCAN_RANGE_TICKS;
+        /// Encoder counts per millimetre, the unit of positions.
+        pub counts_per_mm: [f64; 2] = [200.0; 2], in COUNTS_PER_MM_RANGE;
+        /// Feed of the moves that set none.
+        pub feed_mm_per_min: f64 = 6000.0, "0.001 to full_speed_mm_per_min";
+        /// Speed with the pen up, and of G0.
+        pub rapid_mm_per_min: f64 = 18_000.0, "0.001 to full_speed_mm_per_min";
+        /// 100 % speed of an axis, to which the times below are, and which no move exceeds; without
+        /// it the faster of the two above.
+        pub full_speed_mm_per_min: Option<f64> = None, "0.001 to a count per tick";
+        /// Time from rest to 100 % speed (¶0004), in whole scans, the nearest and at least one: the
+        /// summary says which, where that is another time. A slower move takes a part of it in
+        /// proportion to its speed, rounded up to whole scans: the slope of an axis stays.
+        pub acceleration_ms: f64 = 100.0, "0 to 4095 scans";
+        /// Time from 100 % speed to rest, likewise.
+        pub deceleration_ms: f64 = 100.0, "0 to 4095 scans";
+        /// Change to a move that is too short for its speed: shorter times with the same
+        /// acceleration, or the same times with less.
+        pub short_moves: ShortMoves = ShortMoves::default();
+        /// Largest deviation of a chord from its arc.
+        pub chord_tolerance_mm: f64 = 0.01, in 1e-6..=1e3;
+        /// True if a cycle begins only when both axes are in position.
+        pub exact_stop: bool = true;
+        /// Largest position error of an axis that is in position.
+        pub in_position_counts: u32 = 4, in IN_POSITION_RANGE;
+        /// Kp of the position loops.
+        pub position_gain_per_s: [f64; 2] = [40.0; 2], "0.001 to 1 per scan";
+        /// Speed of the motors at the largest D/A word.
+        pub rated_speed_rev_per_min: [f64; 2] = [3000.0; 2], "0.001 to 1000000, at most a count per tick";
+        /// Counts per revolution of the motors, four for each line of the encoder.
+        pub counts_per_rev: [u32; 2] = [4000; 2], in 4..=100_000_000;
+        /// Time constants of the drivers' velocity loops.
+        pub velocity_loop_ms: [f64; 2] = [2.0; 2], in 1e-3..=1e4;
+        /// Inertias of motor and load, at the motor.
+        pub inertia_kg_m2: [f64; 2] = [3e-5; 2], in 1e-9..=1e3;
+        /// Largest torques of the motors.
+        pub max_torque_nm: [f64; 2] = [0.9; 2], in 1e-6..=1e6;
+        /// Friction of motor and load, at the motor.
+        pub friction_nm: [f64; 2] = [0.0; 2], "0 to below max_torque_nm";
     }
 }
 
@@ -170,12 +160,7 @@ impl Settings {
     ///
     /// Names the first field at fault, its value and what is allowed.
     pub fn validate(&self) -> Result<(), SettingError> {
-        within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
-        within("scan_ticks", self.scan_ticks, &SCAN_RANGE_TICKS)?;
-        for (value, name) in self.counts_per_mm.into_iter().zip(AXIS_NAMES) {
-            within("counts_per_mm", value, &COUNTS_PER_MM_RANGE)
-                .map_err(|error| error.at(Place::Element(name)))?;
-        }
+        self.ranges()?;
         let most = self.countable_mm_per_min();
         if let Some(full) = self.full_speed_mm_per_min {
             within("full_speed_mm_per_min", full, &(*FEED_RANGE.start()..=most))?;
@@ -186,41 +171,34 @@ impl Settings {
         let times = 0.0..=LONGEST_RAMP as f64 * 1e3 * self.scan_s();
         within("acceleration_ms", self.acceleration_ms, &times)?;
         within("deceleration_ms", self.deceleration_ms, &times)?;
-        let tolerance = self.chord_tolerance_mm;
-        within("chord_tolerance_mm", tolerance, &(1e-6..=1e3))?;
-        let counts = self.in_position_counts;
-        within("in_position_counts", counts, &IN_POSITION_RANGE)?;
-        for (axis, name) in self.axes.iter().zip(AXIS_NAMES) {
-            self.validate_axis(axis)
-                .map_err(|error| error.at(Place::Element(name)))?;
+        // More than the whole error in one scan, and the loop overshoots.
+        self.position_gain_per_s
+            .check("position_gain_per_s", &(1e-3..=1.0 / self.scan_s()))?;
+        for (axis, name) in AXIS_NAMES.into_iter().enumerate() {
+            let at = |error: SettingError| error.at(Place::Element(name));
+            let fastest = 60.0 * self.clock_hz as f64 / f64::from(self.counts_per_rev[axis]);
+            let (speed, speeds) = (self.rated_speed_rev_per_min[axis], 1e-3..=fastest.min(1e6));
+            within("rated_speed_rev_per_min", speed, &speeds).map_err(at)?;
+            let (torque, friction) = (self.max_torque_nm[axis], self.friction_nm[axis]);
+            if !(0.0..torque).contains(&friction) {
+                let allowed = format!("0 to below max_torque_nm, {torque}");
+                return Err(at(SettingError::value("friction_nm", friction, allowed)));
+            }
         }
         Ok(())
     }
 
-    fn validate_axis(&self, axis: &AxisSettings) -> Result<(), SettingError> {
-        let AxisSettings {
-            position_gain_per_s: gain,
-            rated_speed_rev_per_min: speed,
-            counts_per_rev: counts,
-            velocity_loop_ms,
-            inertia_kg_m2: inertia,
-            max_torque_nm: torque,
-            friction_nm: friction,
-        } = *axis;
-        // More than the whole error in one scan, and the loop overshoots.
-        let gains = 1e-3..=1.0 / self.scan_s();
-        within("position_gain_per_s", gain, &gains)?;
-        within("counts_per_rev", counts, &(4..=100_000_000))?;
-        let fastest = 60.0 * self.clock_hz as f64 / f64::from(counts);
-        let speeds = 1e-3..=fastest.min(1e6);
-        within("rated_speed_rev_per_min", speed, &speeds)?;
-        within("velocity_loop_ms", velocity_loop_ms, &(1e-3..=1e4))?;
-        within("inertia_kg_m2", inertia, &(1e-9..=1e3))?;
-        within("max_torque_nm", torque, &(1e-6..=1e6))?;
-        if !(0.0..torque).contains(&friction) {
-            let allowed = format!("0 to below max_torque_nm, {torque}");
-            return Err(SettingError::value("friction_nm", friction, allowed));
+    /// Returns the settings of X (0) or Y (1).
+    #[must_use]
+    pub fn axis(&self, axis: usize) -> AxisSettings {
+        AxisSettings {
+            position_gain_per_s: self.position_gain_per_s[axis],
+            rated_speed_rev_per_min: self.rated_speed_rev_per_min[axis],
+            counts_per_rev: self.counts_per_rev[axis],
+            velocity_loop_ms: self.velocity_loop_ms[axis],
+            inertia_kg_m2: self.inertia_kg_m2[axis],
+            max_torque_nm: self.max_torque_nm[axis],
+            friction_nm: self.friction_nm[axis],
         }
-        Ok(())
     }
 }

@@ -129,7 +129,7 @@ impl Program {
             segment: 8,
             ..Widths::FULL
         };
-        let axes = [settings.axis; 2];
+        let axes = [settings.machine; 2];
         let path = Path::of(
             drawing.start,
             &pieces,

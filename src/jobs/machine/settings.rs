@@ -5,109 +5,80 @@ use crate::jobs::lead_angle::settings as lift;
 pub use crate::jobs::lead_angle::settings::History;
 use crate::jobs::linear_interpolator::targets::{LATENCY_TICKS, LONGEST_RAMP};
 use crate::jobs::pulse_interpolator::{self as pulse, StepTiming};
+use crate::jobs::trajectory_controller::servo_gains::{INTEGRAL_RANGE_MS, RATE_RANGE};
 use crate::jobs::trajectory_controller::settings as trajectory;
 pub use crate::jobs::trajectory_controller::settings::Correction;
 use crate::plan::MotionLimits;
 use crate::plant::{BodyParameters, TwoMassParameters};
-use crate::settings::{CLOCK_RANGE_HZ, IN_POSITION_RANGE, Place, SettingError, WholeTime, within};
+use crate::settings::{
+    CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, IN_POSITION_RANGE, Place, SettingError, WholeTime,
+    settings, within,
+};
 use std::ops::RangeInclusive;
 
 /// Ticks of a period that the counters hold.
 const PERIOD: RangeInclusive<u32> = 1..=(1 << 24) - 1;
-/// Shortest scan in ticks: the linear interpolator makes its commands within it.
-pub const LEAST_SCAN_TICKS: u64 = LATENCY_TICKS as u64;
 /// Shortest sampling time in ticks: arc generator and trajectory controller are done within it.
 pub const LEAST_SAMPLE_TICKS: u64 = {
     let (arcs, trajectory) = (arcs::LEAST_SAMPLE_TICKS, trajectory::LEAST_PERIOD_TICKS);
     if arcs > trajectory { arcs } else { trajectory }
 };
 
-/// Settings of the machine.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Settings {
-    /// Reference clock in Hz.
-    pub clock_hz: u64,
-    /// T: unit time of the pulse interpolator, in ticks.
-    pub unit_ticks: u32,
-    /// Scan of the linear interpolator, in ticks.
-    pub scan_ticks: u32,
-    /// CK of the lead-angle compensator, in ticks.
-    pub ck_ticks: u32,
-    /// Ts: sampling time of arc generator and trajectory controller, in ticks.
-    pub sample_ticks: u32,
-    /// Steps of the steppers per millimetre, X and Y.
-    pub steps_per_mm: [f64; 2],
-    /// What the stepper drivers ask of their inputs.
-    pub step_timing: StepTiming,
-    /// Counts of the servos per millimetre.
-    pub counts_per_mm: f64,
-    /// Speed of the moves that set none, and of rapid ones; corners and acceleration of the
-    /// steppers. The acceleration across arcs is that of the servos too.
-    pub motion: MotionLimits,
-    /// Time in which the servos come to speed, and to rest.
-    pub acceleration_ms: f64,
-    /// K1 in 1/s.
-    pub k1_per_s: f64,
-    /// K2 in 1/s.
-    pub k2_per_s: f64,
-    /// What the trajectory controller adds to the commands.
-    pub correction: Correction,
-    /// Gain of the position controls in 1/s.
-    pub position_gain_per_s: f64,
-    /// Bandwidth of the speed controls in Hz.
-    pub speed_hz: f64,
-    /// Integral time of the speed controls; 0 for no integral.
-    pub integral_ms: f64,
-    /// A move begins when both motors are as near to their commands.
-    pub in_position_counts: u32,
-    /// Amplifier, motor, load and encoder of X and Y.
-    pub axis: TwoMassParameters,
-    /// Where the lift has the pen down; up is 0.
-    pub pen_down_counts: i64,
-    /// Speed of the lift in counts a second.
-    pub lift_counts_per_s: u32,
-    /// Lead of the lift's brake before anything is learned.
-    pub lift_lead_ms: f64,
-    /// Memory of the lift's past positions.
-    pub lift_history: History,
-    /// Drive, body, brake and encoder of the lift.
-    pub lift: BodyParameters,
-}
-
-impl Default for Settings {
-    /// A plotter at 400 kHz with steppers of 40 steps and servos of 1000 counts a millimetre.
-    fn default() -> Self {
-        let servo = trajectory::Settings::default();
-        Settings {
-            clock_hz: 400_000,
-            unit_ticks: 2000,
-            scan_ticks: 400,
-            ck_ticks: 40,
-            sample_ticks: 400,
-            steps_per_mm: [40.0; 2],
-            step_timing: StepTiming {
-                min_high: 2,
-                min_low: 2,
-                dir_setup: 5,
-                dir_hold: 5,
-            },
-            counts_per_mm: servo.counts_per_mm,
-            motion: MotionLimits::default(),
-            acceleration_ms: 40.0,
-            k1_per_s: servo.k1_per_s.of(0),
-            k2_per_s: servo.k2_per_s.of(0),
-            correction: servo.correction,
-            position_gain_per_s: servo.position_gain_per_s,
-            speed_hz: servo.speed_hz,
-            integral_ms: servo.integral_ms,
-            in_position_counts: 4,
-            axis: TwoMassParameters::default(),
-            pen_down_counts: 4000,
-            lift_counts_per_s: 20_000,
-            lift_lead_ms: 25.0,
-            lift_history: History::default(),
-            lift: lift_body(),
-        }
+settings! {
+    /// Settings of the machine. Default: a plotter at 400 kHz with steppers of 40 steps and servos
+    /// of 1000 counts per millimetre. Lists are of X and of Y.
+    pub struct Settings {
+        /// Reference clock.
+        pub clock_hz: u64 = 400_000, in CLOCK_RANGE_HZ;
+        /// T: unit time of the pulse interpolator.
+        pub unit_ticks: u32 = 2000, in PERIOD;
+        /// Scan of the linear interpolator.
+        pub scan_ticks: u32 = 400, in LATENCY_TICKS..=*PERIOD.end();
+        /// CK of the lead-angle compensator.
+        pub ck_ticks: u32 = 40, in *lift::CK_RANGE_TICKS.start()..=*PERIOD.end();
+        /// Ts: sampling time of arc generator and trajectory controller.
+        pub sample_ticks: u32 = 400, in LEAST_SAMPLE_TICKS as u32..=*PERIOD.end(),
+            "two within 4095 scans";
+        /// Steps of the steppers per millimetre.
+        pub steps_per_mm: [f64; 2] = [40.0; 2], "0.000001 to 1000000000, or the negative of that";
+        /// Counts of the servos' commands and encoders per millimetre.
+        pub counts_per_mm: f64 = 1000.0, in COUNTS_PER_MM_RANGE;
+        /// Time in which the servos come to speed, and to rest: the nearest whole number of scans on
+        /// lines, of two Ts on arcs. The summary says which, where that is another time.
+        pub acceleration_ms: f64 = 40.0, "a scan or two Ts to 4095 scans";
+        /// K1 of all models.
+        pub k1_per_s: f64 = 50.0, "above 0, up to 0.5 per Ts, and at most a quarter of k2_per_s";
+        /// K2 of all models.
+        pub k2_per_s: f64 = 200.0, "4 times k1_per_s or more, below 2 per Ts";
+        /// Correction that the trajectory controller adds to the commands; not `feedback`.
+        pub correction: Correction = Correction::default();
+        /// Gain of the position controls.
+        pub position_gain_per_s: f64 = 30.0, in RATE_RANGE;
+        /// Bandwidth of the speed controls.
+        pub speed_hz: f64 = 17.0, in RATE_RANGE;
+        /// Integral time of the speed controls; 0 for no integral.
+        pub integral_ms: f64 = 40.0, in INTEGRAL_RANGE_MS;
+        /// Distance of both motors from their commands, at most, at which a move begins.
+        pub in_position_counts: u32 = 4, in IN_POSITION_RANGE;
+        /// Amplifier, motor, load and encoder of X and Y.
+        pub machine: TwoMassParameters = TwoMassParameters::default();
+        /// Position of the lift with the pen down; up is 0.
+        pub pen_down_counts: i64 = 4000, "not 0";
+        /// Speed of the lift.
+        pub lift_counts_per_s: u32 = 20_000, "a multiple of 10";
+        /// Lead of the lift's brake before anything is learned.
+        pub lift_lead_ms: f64 = 25.0, "0, or a whole number of CKs that a code has";
+        /// Memory of the lift's past positions.
+        pub lift_history: History = History::default();
+        /// Drive, body, brake and encoder of the lift. Default: a cam that turns half a revolution.
+        pub lift: BodyParameters = lift_body();
+    }
+    flat {
+        /// Speed of the moves that set none, and of rapid ones; corners and acceleration of the
+        /// steppers. The acceleration across arcs is that of the servos too.
+        pub motion: MotionLimits = MotionLimits::default();
+        /// Timing that the stepper drivers require.
+        pub step_timing: StepTiming = StepTiming::default();
     }
 }
 
@@ -131,25 +102,10 @@ impl Settings {
     /// # Errors
     /// Names the first field at fault, its value and what is allowed.
     pub fn validate(&self) -> Result<(), SettingError> {
-        within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
-        let least = [
-            ("unit_ticks", self.unit_ticks, 1),
-            ("scan_ticks", self.scan_ticks, LEAST_SCAN_TICKS),
-            (
-                "ck_ticks",
-                self.ck_ticks,
-                u64::from(*lift::CK_RANGE_TICKS.start()),
-            ),
-            ("sample_ticks", self.sample_ticks, LEAST_SAMPLE_TICKS),
-        ];
-        for (field, ticks, least) in least {
-            within(field, u64::from(ticks), &(least..=u64::from(*PERIOD.end())))?;
-        }
-        within(
-            "in_position_counts",
-            self.in_position_counts,
-            &IN_POSITION_RANGE,
-        )?;
+        let in_table = |name| move |error: SettingError| error.at(Place::Table(name));
+        self.machine.ranges().map_err(in_table("machine"))?;
+        self.lift.ranges().map_err(in_table("lift"))?;
+        self.ranges()?;
         let blend = 2.0 * self.sample_s();
         let longest = LONGEST_RAMP as f64 * self.scan_s();
         if blend > longest {
@@ -172,9 +128,7 @@ impl Settings {
                 "\"vector\", \"none\" or \"steady\": the machine's commands come from elsewhere";
             return Err(SettingError::new("correction", problem, allowed));
         }
-        let in_table = |name| move |error: SettingError| error.at(Place::Table(name));
-        self.axis.validate().map_err(in_table("machine"))?;
-        self.lift.validate().map_err(in_table("lift"))
+        Ok(())
     }
 
     /// Ts in seconds.
@@ -219,12 +173,11 @@ impl Settings {
             sample_period_ms: 1e3 * self.sample_s(),
             acceleration_ms: arcs.ms(),
             counts_per_mm: self.counts_per_mm,
-            speed_mm_per_s: Some(self.motion.feed_mm_per_min / 60.0),
-            rapid_mm_per_s: self.motion.rapid_mm_per_min / 60.0,
+            feed_mm_per_min: Some(self.motion.feed_mm_per_min),
+            rapid_mm_per_min: self.motion.rapid_mm_per_min,
             corner_deg: 0.0,
-            rounding: arcs::Settings::default().rounding,
-            blend: arcs::Settings::default().blend,
             short_pieces: ShortPieces::Slower,
+            ..arcs::Settings::default()
         }
     }
 
@@ -235,11 +188,11 @@ impl Settings {
             clock_hz: self.clock_hz,
             period_ms: 1e3 * self.sample_s(),
             counts_per_mm: self.counts_per_mm,
-            feed_mm_per_s: Some(self.motion.feed_mm_per_min / 60.0),
-            rapid_mm_per_s: self.motion.rapid_mm_per_min / 60.0,
+            feed_mm_per_min: Some(self.motion.feed_mm_per_min),
+            rapid_mm_per_min: self.motion.rapid_mm_per_min,
             acceleration_mm_per_s2: Some(self.motion.acceleration_mm_per_s2),
             normal_acceleration_mm_per_s2: self.motion.acceleration_mm_per_s2,
-            corner_mm_per_s: 0.0,
+            corner_mm_per_min: 0.0,
             k1_per_s: self.k1_per_s.into(),
             k2_per_s: self.k2_per_s.into(),
             correction: self.correction,
@@ -257,6 +210,7 @@ impl Settings {
             target,
             speed_counts_per_s: self.lift_counts_per_s,
             lead_ms: self.lift_lead_ms,
+            ..lift::Step::default()
         };
         lift::Settings {
             clock_hz: self.clock_hz,

@@ -102,12 +102,12 @@ impl Surroundings {
             drives,
             plants: Ahead::new(Bodies {
                 servos: [
-                    TwoMassAxis::new(&settings.axis, tick_s)?,
-                    TwoMassAxis::new(&settings.axis, tick_s)?,
+                    TwoMassAxis::new(&settings.machine, tick_s)?,
+                    TwoMassAxis::new(&settings.machine, tick_s)?,
                 ],
                 lift: BrakedBody::new(&settings.lift, tick_s)?,
             }),
-            drivers: [0, 1].map(|_| Driver::new(StepTiming::default())),
+            drivers: [0, 1].map(|_| Driver::new(StepTiming::NONE)),
         })
     }
 

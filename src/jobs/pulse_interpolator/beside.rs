@@ -45,7 +45,7 @@ pub struct Arc {
 #[must_use]
 pub fn orders(demands: &[UnitDemand], timing: &StepTiming) -> Vec<Order> {
     let greatest = (1 << ConventionalWidths::default().distance) - 1;
-    let pulse = 2 * i64::from(timing.min_high.max(timing.min_low).max(1));
+    let pulse = 2 * i64::from(timing.step_high_ticks.max(timing.step_low_ticks).max(1));
     let Some(last) = demands.last() else {
         return Vec::new();
     };
@@ -320,9 +320,9 @@ mod tests {
     #[test]
     fn what_does_not_fit_into_a_unit_time_comes_with_the_next() {
         let timing = StepTiming {
-            min_high: 2,
-            min_low: 5,
-            ..StepTiming::default()
+            step_high_ticks: 2,
+            step_low_ticks: 5,
+            ..StepTiming::NONE
         };
         let deltas = |ends: &[[i64; COORDINATES]]| {
             let found = orders(&demands(129, ends), &timing);
@@ -348,7 +348,7 @@ mod tests {
         for axes in 1..=COORDINATES {
             let ends = [1, 2, 3, 4].map(|unit| [unit; COORDINATES]);
             let at = |period| {
-                let orders = orders(&demands(period, &ends), &StepTiming::default());
+                let orders = orders(&demands(period, &ends), &StepTiming::NONE);
                 run(axes, &orders)
             };
             let seen = at(2000);

@@ -132,7 +132,7 @@ impl Planner<'_> {
         let units = (ticks / f64::from(period)).ceil();
         // No axis has more steps in a unit time than its driver allows.
         let timing = &self.settings.timing;
-        let pulse = 2 * timing.min_high.max(timing.min_low).max(1);
+        let pulse = 2 * timing.step_high_ticks.max(timing.step_low_ticks).max(1);
         let pulses = f64::from((period / pulse).max(1));
         let units = units.max((reach / pulses).ceil()).max(1.0);
         let most = (1u64 << widths.units) - 1;

@@ -14,7 +14,7 @@ pub struct Paced {
 impl Default for Paced {
     fn default() -> Self {
         Paced {
-            driver: Driver::new(StepTiming::default()),
+            driver: Driver::new(StepTiming::NONE),
             spread: Spread::default(),
         }
     }

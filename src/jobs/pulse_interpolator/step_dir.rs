@@ -104,7 +104,7 @@ impl Driver {
                 "hold",
                 self.stepped.take(),
                 &mut least.hold,
-                limits.dir_hold,
+                limits.dir_hold_ticks,
             );
             self.turned = Some(tick);
         }
@@ -114,16 +114,16 @@ impl Driver {
                 "setup",
                 self.turned.take(),
                 &mut least.setup,
-                limits.dir_setup,
+                limits.dir_setup_ticks,
             );
-            judge("low", self.fell, &mut least.low, limits.min_low);
+            judge("low", self.fell, &mut least.low, limits.step_low_ticks);
             self.pulses += 1;
             self.position += if dir { -1 } else { 1 };
             self.rose = Some(tick);
             self.stepped = Some(tick);
         }
         if !step && self.step {
-            judge("high", self.rose, &mut least.high, limits.min_high);
+            judge("high", self.rose, &mut least.high, limits.step_high_ticks);
             self.fell = Some(tick);
         }
         self.step = step;

@@ -6,6 +6,7 @@ use crate::circuits::pulse_interpolator::group::In;
 use crate::circuits::pulse_interpolator::pattern_memory::Contents;
 use crate::circuits::pulse_interpolator::{Group, Pattern, Variant, Widths};
 use crate::hdl::{Value, zero};
+use crate::settings::settings;
 
 /// Memory with its patterns, and the patterns that are played.
 #[derive(Debug, Clone)]
@@ -24,13 +25,15 @@ pub struct Stored {
     pub writes: Vec<(u64, u32)>,
 }
 
-/// Write of T while patterns are played (¶0016).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Rewrite {
-    /// Unit time of the run in whose middle it is written, from 0.
-    pub unit: usize,
-    /// T in ticks: in force from the next RST on, until another pattern begins.
-    pub period: u32,
+settings! {
+    /// A unit time T that is written while patterns are played: a table `[[rewrite]]`.
+    #[derive(Copy, Eq)]
+    pub struct Rewrite {
+        /// Unit time of the run in whose middle T is written, from 0.
+        pub unit [required]: usize = 0;
+        /// T from the next unit time on, up to the end of the pattern.
+        pub period as "unit_ticks" [required]: u32 = 0;
+    }
 }
 
 /// Least unit time in whose middle T can be written: its first ticks belong to a command.

@@ -1,9 +1,9 @@
 //! Setting that is one number for all axes, or a list with one for each.
 
 use crate::circuits::trajectory_controller::path_point::AXIS_NAMES;
-use crate::settings::{Place, SettingError};
+use crate::settings::{Place, SettingError, Shape, Value};
 use serde::Serialize;
-use serde::de::{Deserialize, Deserializer, SeqAccess, Visitor};
+use serde::de::{Deserializer, SeqAccess, Visitor};
 use std::fmt;
 
 /// Number for all axes, or one for each.
@@ -78,8 +78,10 @@ impl EachAxis {
     }
 }
 
-impl<'de> Deserialize<'de> for EachAxis {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+impl Value for EachAxis {
+    const SHAPE: Shape = Shape::PerAxis;
+
+    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         from.deserialize_any(NumberOrList)
     }
 }

@@ -1,7 +1,7 @@
 //! External torques on the loads: cutting forces, weights.
 
 use crate::circuits::trajectory_controller::path_point::AXIS_NAMES;
-use crate::settings::{Place, SettingError, within};
+use crate::settings::{Place, SettingError, choices, settings};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
@@ -33,19 +33,22 @@ impl AxisName {
     }
 }
 
-/// Torque on the load of an axis, for a time. Torques on one axis add up.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LoadTorque {
-    /// Axis.
-    pub axis: AxisName,
-    /// Torque at the motor's shaft in N·m; positive pushes forwards.
-    pub torque_nm: f64,
-    /// Start time in s from the tick of the path's start.
-    #[serde(default)]
-    pub from_s: f64,
-    /// End time in s; by default the end of the run.
-    pub to_s: Option<f64>,
+choices!(AxisName);
+
+settings! {
+    /// A torque on the load of an axis, for a time: a table `[[load_torque]]`. Those of one axis
+    /// add.
+    #[derive(Copy)]
+    pub struct LoadTorque {
+        /// Axis.
+        pub axis [required]: AxisName = AxisName::X;
+        /// Torque at the motor's shaft: a positive one pushes forwards.
+        pub torque_nm [required]: f64 = 0.0, in LOAD_TORQUE_RANGE_NM;
+        /// Begin, from the path's start.
+        pub from_s: f64 = 0.0, in LOAD_TIME_RANGE_S;
+        /// End; without it the torque stays until the run is over.
+        pub to_s: Option<f64> = None, "above from_s, up to 1000000";
+    }
 }
 
 /// Step of the external torque on the load of an axis.
@@ -103,8 +106,7 @@ fn check(torque: &LoadTorque, axes: usize) -> Result<(), SettingError> {
         let allowed = format!("one of {}", names.join(", "));
         return Err(SettingError::value("axis", AXIS_NAMES[index], allowed));
     }
-    within("torque_nm", torque.torque_nm, &LOAD_TORQUE_RANGE_NM)?;
-    within("from_s", torque.from_s, &LOAD_TIME_RANGE_S)?;
+    torque.ranges()?;
     let Some(to_s) = torque.to_s else {
         return Ok(());
     };

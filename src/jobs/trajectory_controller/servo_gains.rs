@@ -48,7 +48,7 @@ impl ServoGains {
     ) -> Result<Self, SettingError> {
         let period = settings.period_s(widths)?;
         let of_axis = |error: SettingError| error.at(Place::Row("axis", index));
-        axis.validate().map_err(of_axis)?;
+        axis.ranges().map_err(of_axis)?;
         let (hz, longest_s) = (settings.clock_hz, axis.longest_tick_s());
         let tick_s = 1.0 / hz as f64;
         if tick_s > longest_s {

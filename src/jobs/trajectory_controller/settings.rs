@@ -1,18 +1,25 @@
-//! What the trajectory controller is run with: clock and period, machine, motion, reference model.
+//! Settings of the trajectory controller: clock and period, machine, motion, reference model.
 
 use super::each_axis::EachAxis;
 use super::job::controller;
 use super::load_torque::LoadTorque;
 use super::ramp::Slope;
+use super::segments::FourthAxis;
+use super::servo_gains::{INTEGRAL_RANGE_MS, RATE_RANGE};
 use crate::circuits::trajectory_controller::path_point::AXES;
 pub use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::{Rounding, Widths};
 use crate::input::COORDINATES;
-use crate::jobs::arc_generator::settings::SPEED_RANGE_MM_PER_S;
-use crate::path::pieces::Speeds;
+use crate::jobs::arc_generator::settings::SPEED_RANGE_MM_PER_MIN;
+use crate::jobs::taught::{Coordinates, TaughtPiece, taught};
+use crate::path::pieces::{Speeds, Taught};
 use crate::plan::ACCELERATION_RANGE;
-use crate::settings::{CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SettingError, whole_ticks, within};
+use crate::plant::TwoMassParameters;
+use crate::settings::{
+    CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SettingError, choices, settings, whole_ticks, within,
+};
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
 
 /// Shortest interpolation period in ticks: two points on the path, three model steps and a servo
 /// step are done within it.
@@ -31,93 +38,77 @@ pub const ACCELERATION_TIME_RANGE_MS: RangeInclusive<f64> = 1e-6..=1e6;
 /// Contour errors that the feed may be limited to, in mm.
 pub const CONTOUR_TOLERANCE_RANGE_MM: RangeInclusive<f64> = 1e-6..=1e3;
 
-/// Settings of a path and its run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Settings {
-    /// Reference clock in Hz.
-    pub clock_hz: u64,
-    /// Δt: interpolation period.
-    pub period_ms: f64,
-    /// Counts per millimetre, of every axis.
-    pub counts_per_mm: f64,
-    /// F: speed of the pieces that have none of their own.
-    pub feed_mm_per_s: Option<f64>,
-    /// Speed of rapid moves.
-    pub rapid_mm_per_s: f64,
-    /// Largest acceleration along the path; [`ACCELERATION_MM_PER_S2`] without it, and without
-    /// [`Settings::acceleration_time_ms`].
-    pub acceleration_mm_per_s2: Option<f64>,
-    /// The time from rest to each feed and to the rapid speed, but for the jerk time, in its place.
-    pub acceleration_time_ms: Option<f64>,
-    /// Largest acceleration of the axes; none where they are not asked.
-    pub axis_acceleration_mm_per_s2: Option<EachAxis>,
-    /// Largest acceleration across it, on arcs.
-    pub normal_acceleration_mm_per_s2: f64,
-    /// Steady contour error of the models, with nothing added, that the feed in curves is limited to
-    /// (¶0004); none where it is not.
-    pub contour_tolerance_mm: Option<f64>,
-    /// Time in which the acceleration along the path comes and goes; 0 for a trapezoid of speed.
-    pub jerk_time_ms: f64,
-    /// Largest step of the velocity between two segments; 0 stops at every corner.
-    pub corner_mm_per_s: f64,
-    /// K1 in 1/s.
-    pub k1_per_s: EachAxis,
-    /// K2 in 1/s.
-    pub k2_per_s: EachAxis,
-    /// Gains with which the model goes beyond its target are allowed: K2 from 2·K1 on.
-    pub allow_overshoot: bool,
-    /// How the model rounds.
-    pub rounding: Rounding,
-    /// What is added to the path's point.
-    pub correction: Correction,
-    /// Of the error along the path, where errors are fed back.
-    pub tangential_gain: f64,
-    /// Of the error across it.
-    pub normal_gain: f64,
-    /// Gain of the position controls in 1/s.
-    pub position_gain_per_s: f64,
-    /// Bandwidth of the speed controls in Hz: their gain is 2πf times the inertia.
-    pub speed_hz: f64,
-    /// Integral time of the speed controls; 0 for no integral.
-    pub integral_ms: f64,
-    /// What the feed-forward is told of the inertia of motor and load, as a part of it: 0 for no
-    /// feed-forward.
-    pub inertia_factor: EachAxis,
-    /// Torques on the loads from outside.
-    pub load_torque: Vec<LoadTorque>,
-}
+choices!(Correction);
 
-impl Default for Settings {
-    /// 1 µm a count, 1 ms at 1 MHz, K1 and K2 of the usual machine tool. Speed control of a fifth of
-    /// the resonance of the usual axis, 87 Hz; position gain and integral of a quarter of that in
-    /// 1/s, 27/s and 37 ms.
-    fn default() -> Self {
-        Self {
-            clock_hz: 1_000_000,
-            period_ms: 1.0,
-            counts_per_mm: 1000.0,
-            feed_mm_per_s: None,
-            rapid_mm_per_s: 200.0,
-            acceleration_mm_per_s2: None,
-            acceleration_time_ms: None,
-            axis_acceleration_mm_per_s2: None,
-            normal_acceleration_mm_per_s2: 2000.0,
-            contour_tolerance_mm: None,
-            jerk_time_ms: 0.0,
-            corner_mm_per_s: 10.0,
-            k1_per_s: EachAxis::All(50.0),
-            k2_per_s: EachAxis::All(200.0),
-            allow_overshoot: false,
-            rounding: Rounding::default(),
-            correction: Correction::default(),
-            tangential_gain: 1.0,
-            normal_gain: 1.0,
-            position_gain_per_s: 30.0,
-            speed_hz: 17.0,
-            integral_ms: 40.0,
-            inertia_factor: EachAxis::All(1.0),
-            load_torque: Vec::new(),
-        }
+settings! {
+    /// Settings of a path, its pieces and a run.
+    ///
+    /// Default: 1 µm a count, 1 ms at 1 MHz, K1 and K2 of the usual machine tool. Speed control of a
+    /// fifth of the resonance of the usual axis, 87 Hz; position gain and integral of a quarter of
+    /// that in 1/s, 27/s and 37 ms.
+    pub struct Settings {
+        /// Start of the first piece; at 0 without it.
+        pub start_mm: Option<Coordinates> = None;
+        /// Pieces of the path, where it is no drawing.
+        pub piece: Vec<TaughtPiece> = Vec::new();
+        /// Axes: 2, 3, or 4 with W; without it 3 where the path moves in Z, else 2.
+        pub axes: Option<u32> = None, in 2..=4;
+        /// Reference clock.
+        pub clock_hz: u64 = 1_000_000, in CLOCK_RANGE_HZ;
+        /// Δt: interpolation period, in whole ticks.
+        pub period_ms: f64 = 1.0, "as many ticks as the circuit needs, or more";
+        /// Counts per millimetre, of every axis.
+        pub counts_per_mm: f64 = 1000.0, in COUNTS_PER_MM_RANGE;
+        /// F: speed of the pieces that have none of their own.
+        pub feed_mm_per_min: Option<f64> = None, in SPEED_RANGE_MM_PER_MIN;
+        /// Speed with the pen up, and of G0.
+        pub rapid_mm_per_min: f64 = 12_000.0, in SPEED_RANGE_MM_PER_MIN;
+        /// Largest acceleration along the path; 2000 without it and without `acceleration_time_ms`.
+        pub acceleration_mm_per_s2: Option<f64> = None, in ACCELERATION_RANGE;
+        /// Time from rest to each feed and to the rapid speed, but for the jerk time, in place of an
+        /// acceleration.
+        pub acceleration_time_ms: Option<f64> = None, in ACCELERATION_TIME_RANGE_MS;
+        /// Largest acceleration of the axes; without it they have no limit of their own.
+        pub axis_acceleration_mm_per_s2: Option<EachAxis> = None, "0.001 to 1000000000";
+        /// Largest acceleration across the path, on arcs.
+        pub normal_acceleration_mm_per_s2: f64 = 2000.0, in ACCELERATION_RANGE;
+        /// Steady contour error of the models, with nothing added, to which the feed in curves is
+        /// limited (¶0004); without it the feed has no such limit.
+        pub contour_tolerance_mm: Option<f64> = None, in CONTOUR_TOLERANCE_RANGE_MM;
+        /// Time in which the acceleration along the path comes and goes; 0 for a trapezoid of speed.
+        pub jerk_time_ms: f64 = 0.0, in JERK_TIME_RANGE_MS;
+        /// Largest step of the velocity between two segments; 0 stops at every corner.
+        pub corner_mm_per_min: f64 = 600.0, in 0.0..=*SPEED_RANGE_MM_PER_MIN.end();
+        /// K1 of the models.
+        pub k1_per_s: EachAxis = EachAxis::All(50.0), "above 0, up to 0.5 per period";
+        /// K2 of the models.
+        pub k2_per_s: EachAxis = EachAxis::All(200.0),
+            "4 times k1_per_s, or 2 times with allow_overshoot, and more, below 2 per period";
+        /// True if gains are allowed with which the model goes beyond its target: K2 from 2·K1 on.
+        pub allow_overshoot: bool = false;
+        /// Rounding of the models.
+        pub rounding: Rounding = Rounding::default();
+        /// Correction that is added to the path's point in the run whose waves are written.
+        pub correction: Correction = Correction::default();
+        /// Gain of the error along the path, where errors are fed back.
+        pub tangential_gain: f64 = 1.0, "0 to what a word of the gain holds";
+        /// Gain of the error across the path, likewise.
+        pub normal_gain: f64 = 1.0, "0 to what a word of the gain holds";
+        /// Gain of the position controls.
+        pub position_gain_per_s: f64 = 30.0, in RATE_RANGE;
+        /// Bandwidth of the speed controls: their gain is 2πf times the inertia.
+        pub speed_hz: f64 = 17.0, in RATE_RANGE;
+        /// Integral time of the speed controls; 0 for no integral.
+        pub integral_ms: f64 = 40.0, in INTEGRAL_RANGE_MS;
+        /// Inertia of motor and load that the feed-forward assumes, as a part of the true one; 0 for
+        /// no feed-forward.
+        pub inertia_factor: EachAxis = EachAxis::All(1.0), "0 to 100";
+        /// Torques on the loads from outside.
+        pub load_torque: Vec<LoadTorque> = Vec::new();
+        /// Amplifier, motor, load and encoder of every axis.
+        pub machine: TwoMassParameters = TwoMassParameters::default();
+        /// The same of each axis by itself, in place of `machine`.
+        pub axis: Vec<TwoMassParameters> = Vec::new();
     }
 }
 
@@ -189,13 +180,68 @@ impl FeedbackGains {
 impl From<&Settings> for Speeds {
     fn from(settings: &Settings) -> Self {
         Speeds {
-            wanted: settings.feed_mm_per_s,
-            rapid: settings.rapid_mm_per_s,
+            wanted: settings.feed_mm_per_min.map(|feed| feed / 60.0),
+            rapid: settings.rapid_mm_per_min / 60.0,
         }
     }
 }
 
 impl Settings {
+    /// True if there is W beside X, Y and Z.
+    #[must_use]
+    pub fn has_fourth(&self) -> bool {
+        self.axes == Some(4)
+    }
+
+    /// Returns the taught pieces; none if the path is a drawing, `input`.
+    ///
+    /// # Errors
+    /// As [`taught`]; a start without W where there are four axes, or with it where there are not.
+    pub fn taught(&self, input: Option<&PathBuf>) -> Result<Vec<Taught>, SettingError> {
+        let fourth = self.has_fourth();
+        let start = self.start_mm.as_ref();
+        start.map_or(Ok(()), |start| start.check("start_mm", fourth))?;
+        taught(input, &self.piece, fourth)
+    }
+
+    /// Returns W of the taught pieces.
+    #[must_use]
+    pub fn taught_w(&self) -> FourthAxis {
+        let w = |of: &Coordinates| of.w.unwrap_or(0.0);
+        FourthAxis {
+            from_mm: self.start_mm.as_ref().map_or(0.0, w),
+            to_mm: self.piece.iter().map(|piece| w(&piece.to_mm)).collect(),
+        }
+    }
+
+    /// Returns the number of axes, of a path that moves in Z or not.
+    ///
+    /// # Errors
+    /// Neither 2 nor 3 nor 4.
+    pub fn axes(&self, moves_in_z: bool) -> Result<usize, SettingError> {
+        let axes = self.axes.unwrap_or(if moves_in_z { 3 } else { 2 });
+        match (2..=4).contains(&axes) {
+            true => Ok(axes as usize),
+            false => Err(SettingError::value("axes", axes, "2, 3 or 4")),
+        }
+    }
+
+    /// Returns motor and load of each of so many axes.
+    ///
+    /// # Errors
+    /// There are tables `[[axis]]`, and not one for each axis.
+    pub fn machines(&self, axes: usize) -> Result<Vec<TwoMassParameters>, SettingError> {
+        match self.axis.len() {
+            0 => Ok(vec![self.machine; axes]),
+            given if given == axes => Ok(self.axis.clone()),
+            given => {
+                let allowed = format!("{axes} tables [[axis]], or one table [machine] for all");
+                let problem = format!("given {given} times");
+                Err(SettingError::new("axis", problem, allowed))
+            }
+        }
+    }
+
     /// Checks every field.
     ///
     /// # Errors
@@ -233,20 +279,10 @@ impl Settings {
     /// # Errors
     /// As [`Settings::validate`], of all but the model's gains.
     pub fn motion(&self, widths: &Widths) -> Result<Motion, SettingError> {
+        self.ranges()?;
         let period = self.period_s(widths)?;
-        within("counts_per_mm", self.counts_per_mm, &COUNTS_PER_MM_RANGE)?;
-        let feed = self.feed_mm_per_s.map(|feed| ("feed_mm_per_s", feed));
-        let rapid = ("rapid_mm_per_s", self.rapid_mm_per_s);
-        for (field, speed) in feed.into_iter().chain([rapid]) {
-            within(field, speed, &SPEED_RANGE_MM_PER_S)?;
-        }
         let (acceleration, time_constant) = self.acceleration()?;
-        let normal = self.normal_acceleration_mm_per_s2;
-        within("normal_acceleration_mm_per_s2", normal, &ACCELERATION_RANGE)?;
         let axis_acceleration = self.axis_accelerations()?;
-        within("jerk_time_ms", self.jerk_time_ms, &JERK_TIME_RANGE_MS)?;
-        let corners = 0.0..=*SPEED_RANGE_MM_PER_S.end();
-        within("corner_mm_per_s", self.corner_mm_per_s, &corners)?;
         let units_per_mm = self.counts_per_mm * (widths.guard() as f64).exp2();
         Ok(Motion {
             units_per_mm,
@@ -256,10 +292,10 @@ impl Settings {
                 time_constant,
                 jerk_time: self.jerk_time_ms / 1e3,
             },
-            normal_acceleration: normal,
+            normal_acceleration: self.normal_acceleration_mm_per_s2,
             contour_acceleration: f64::INFINITY,
             axis_acceleration,
-            corner_speed: self.corner_mm_per_s,
+            corner_speed: self.corner_mm_per_min / 60.0,
         })
     }
 
@@ -294,18 +330,15 @@ impl Settings {
     fn acceleration(&self) -> Result<(f64, f64), SettingError> {
         let Some(time_ms) = self.acceleration_time_ms else {
             let told = self.acceleration_mm_per_s2;
-            let acceleration = told.unwrap_or(ACCELERATION_MM_PER_S2);
-            within("acceleration_mm_per_s2", acceleration, &ACCELERATION_RANGE)?;
-            return Ok((acceleration, 0.0));
+            return Ok((told.unwrap_or(ACCELERATION_MM_PER_S2), 0.0));
         };
         let field = "acceleration_time_ms";
         if self.acceleration_mm_per_s2.is_some() {
             let problem = format!("is {time_ms} beside acceleration_mm_per_s2");
             return Err(SettingError::new(field, problem, "one of both"));
         }
-        within(field, time_ms, &ACCELERATION_TIME_RANGE_MS)?;
-        let feed = self.feed_mm_per_s.unwrap_or(0.0);
-        let acceleration = self.acceleration_to(feed.max(self.rapid_mm_per_s))?;
+        let Speeds { wanted, rapid } = Speeds::from(self);
+        let acceleration = self.acceleration_to(wanted.unwrap_or(0.0).max(rapid))?;
         Ok((
             acceleration.unwrap_or(ACCELERATION_MM_PER_S2),
             time_ms / 1e3,

@@ -1,63 +1,36 @@
 //! Parameters of a braked body, and their allowed ranges.
 
 use crate::plant::parameters::POSITIVE;
-use crate::settings::{SettingError, within};
-use serde::{Deserialize, Serialize};
+use crate::settings::settings;
+use std::ops::RangeInclusive;
 
-/// Parameters of motor drive, body, brake and encoder.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct BodyParameters {
-    /// Encoder counts per turn: four times its lines.
-    pub counts_per_rev: f64,
-    /// Acceleration of the drive, independent of the load, in counts/s².
-    pub acceleration_counts_per_s2: f64,
-    /// Inertia of motor and body before the load changes, in kg·m².
-    pub inertia_kg_m2: f64,
-    /// Coulomb friction of the bearings before the load changes, in N·m; 0 for none.
-    pub friction_nm: f64,
-    /// Time from the control signal until the brake engages, in seconds.
-    pub brake_dead_time_s: f64,
-    /// Friction torque of the new brake, in N·m.
-    pub brake_torque_nm: f64,
-    /// Part of its torque that the brake loses with each braking; 0 for none.
-    pub brake_fade: f64,
-}
+/// Factors of a load that are accepted.
+const FACTORS: RangeInclusive<f64> = 1e-3..=1e3;
 
-impl Default for BodyParameters {
-    /// Returns a rotary table that stops from 90,000 counts per second in 42 ms.
-    fn default() -> Self {
-        BodyParameters {
-            counts_per_rev: 90_000.0,
-            acceleration_counts_per_s2: 600_000.0,
-            inertia_kg_m2: 0.5,
-            friction_nm: 1.5,
-            brake_dead_time_s: 0.012,
-            brake_torque_nm: 50.0,
-            brake_fade: 0.0005,
-        }
+settings! {
+    /// Motor drive, body, brake and encoder: a rotary table that stops from 90,000 counts a second
+    /// in 42 ms.
+    #[derive(Copy)]
+    pub struct BodyParameters {
+        /// Encoder counts per revolution: four times its lines.
+        pub counts_per_rev [required]: f64 = 90_000.0, in POSITIVE;
+        /// Acceleration of the drive, whatever the load.
+        pub acceleration_counts_per_s2 [required]: f64 = 600_000.0, in POSITIVE;
+        /// Inertia of motor and body before the load changes.
+        pub inertia_kg_m2 [required]: f64 = 0.5, in POSITIVE;
+        /// Coulomb friction of the bearings before the load changes; 0 for none.
+        pub friction_nm [required]: f64 = 1.5, in 0.0..=*POSITIVE.end();
+        /// Time from the control signal until the brake engages.
+        pub brake_dead_time_s [required]: f64 = 0.012, in 0.0..=10.0;
+        /// Friction torque of the new brake.
+        pub brake_torque_nm [required]: f64 = 50.0, in POSITIVE;
+        /// Part of its torque that the brake loses with each braking; 0 for none.
+        pub brake_fade [required]: f64 = 0.0005, in 0.0..=0.5;
     }
 }
 
 impl BodyParameters {
-    /// Checks every field.
-    ///
-    /// # Errors
-    ///
-    /// Returns a [`SettingError`] that names the first field outside its range or not a number.
-    pub fn validate(&self) -> Result<(), SettingError> {
-        let from_zero = 0.0..=*POSITIVE.end();
-        let acceleration = self.acceleration_counts_per_s2;
-        within("counts_per_rev", self.counts_per_rev, &POSITIVE)?;
-        within("acceleration_counts_per_s2", acceleration, &POSITIVE)?;
-        within("inertia_kg_m2", self.inertia_kg_m2, &POSITIVE)?;
-        within("friction_nm", self.friction_nm, &from_zero)?;
-        within("brake_dead_time_s", self.brake_dead_time_s, &(0.0..=10.0))?;
-        within("brake_torque_nm", self.brake_torque_nm, &POSITIVE)?;
-        within("brake_fade", self.brake_fade, &(0.0..=0.5))
-    }
-
-    /// Returns the encoder counts per radian.
+    /// Encoder counts a radian.
     #[inline]
     pub fn counts_per_rad(&self) -> f64 {
         self.counts_per_rev / std::f64::consts::TAU
@@ -79,35 +52,15 @@ impl BodyParameters {
     }
 }
 
-/// Load of the body, as factors of the values without load.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Load {
-    /// Factor of the inertia.
-    pub load_inertia_factor: f64,
-    /// Factor of the bearings' friction.
-    pub load_friction_factor: f64,
-    /// Factor of the brake's friction torque: a loaded brake gets hot.
-    pub load_brake_factor: f64,
-}
-
-impl Load {
-    /// No load.
-    pub const NONE: Self = Load {
-        load_inertia_factor: 1.0,
-        load_friction_factor: 1.0,
-        load_brake_factor: 1.0,
-    };
-
-    /// Checks every factor.
-    ///
-    /// # Errors
-    ///
-    /// Returns a [`SettingError`] that names the first factor outside its range or not a number.
-    pub fn validate(&self) -> Result<(), SettingError> {
-        let factors = 1e-3..=1e3;
-        within("load_inertia_factor", self.load_inertia_factor, &factors)?;
-        within("load_friction_factor", self.load_friction_factor, &factors)?;
-        within("load_brake_factor", self.load_brake_factor, &factors)
+settings! {
+    /// What the body carries, as factors of what it is without.
+    #[derive(Copy)]
+    pub struct Load {
+        /// Factor of the inertia.
+        pub load_inertia_factor: f64 = 1.0, in FACTORS;
+        /// Factor of the bearings' friction.
+        pub load_friction_factor: f64 = 1.0, in FACTORS;
+        /// Factor of the brake's torque: a loaded brake gets hot.
+        pub load_brake_factor: f64 = 1.0, in FACTORS;
     }
 }

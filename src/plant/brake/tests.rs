@@ -208,7 +208,7 @@ fn the_load_scales_inertia_friction_and_brake() {
     let per_nm = 1000.0 / (0.1 * 2.0);
     let (coasting, braked) = (7.5 * per_nm, (7.5 + 85.5) * per_nm);
     assert_near(stop(&mut body), -stop_distance(SPEED, coasting, braked));
-    body.set_load(Load::NONE).expect("it is in range");
+    body.set_load(Load::default()).expect("it is in range");
     body.step(false, false, 0.0, false);
     assert_near(body.friction_nm(), 5.0);
 }
@@ -249,14 +249,14 @@ fn what_is_out_of_range_is_named() {
         for value in [-1.0, f64::NAN, f64::INFINITY] {
             let mut bad = PARAMETERS;
             *of(&mut bad) = value;
-            assert_eq!(bad.validate().expect_err(field).field, field);
+            assert_eq!(bad.ranges().expect_err(field).field, field);
             assert!(BrakedBody::new(&bad, TICK_S).is_err());
         }
     }
     assert!(BrakedBody::new(&PARAMETERS, 0.0).is_err());
     let load = Load {
         load_brake_factor: 0.0,
-        ..Load::NONE
+        ..Load::default()
     };
     let error = body().set_load(load).expect_err("no brake");
     assert_eq!(

@@ -105,12 +105,12 @@ fn what_is_out_of_range_is_named() {
         for value in [-1.0, f64::NAN, f64::INFINITY] {
             let mut bad = PARAMETERS;
             *of(&mut bad) = value;
-            assert_eq!(bad.validate().expect_err(field).field, field);
+            assert_eq!(bad.ranges().expect_err(field).field, field);
             assert!(TwoMassAxis::new(&bad, 1e-5).is_err());
         }
         let mut zero = PARAMETERS;
         *of(&mut zero) = 0.0;
-        assert_eq!(zero.validate().is_ok(), index >= 6, "{field}");
+        assert_eq!(zero.ranges().is_ok(), index >= 6, "{field}");
     }
     assert!(TwoMassAxis::new(&PARAMETERS, 0.0).is_err());
     // 757.2 rad/s: a tick may be at most 10,000 rad long.

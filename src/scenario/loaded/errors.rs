@@ -6,18 +6,27 @@ use serde_path_to_error::{Path, Segment};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::super::Scenario;
-use super::{NO_DEFAULT, scenario};
+use super::super::{Runnable, Scenario};
+use super::{CIRCUIT, NO_DEFAULT, scenario};
 use crate::input::{Fault, Faults, MOST_FAULTS};
+use crate::settings::ALLOWED;
 
-/// Reads the keys of a scenario. What is wrong with one is told, and the key left out to find what
-/// else is.
+/// Reads the keys of a scenario, of another circuit than its own if `circuit` says one. What is
+/// wrong with a key is reported, and the key left out to find what else is.
 ///
 /// # Errors
 ///
-/// Text that is no TOML; keys that there are not, are missing, or have a value of a wrong type.
-pub(super) fn read(file: &str, text: &str) -> Result<Scenario, Fault> {
+/// Text that is no TOML; keys that there are not, are missing, or have a value of a wrong type. Keys
+/// that another circuit misses are no errors, as overrides may have them: there is no scenario yet.
+pub(super) fn read(
+    file: &str,
+    text: &str,
+    circuit: Option<Runnable>,
+) -> Result<Option<Scenario>, Fault> {
     let (mut table, errors) = DeTable::parse_recoverable(text);
+    if let (Some(circuit), Some(own)) = (circuit, table.get_mut().get_mut(CIRCUIT)) {
+        *own.get_mut() = DeValue::String(circuit.name().into());
+    }
     let mut found: Vec<Fault> = errors
         .iter()
         .map(|error| fault(file, text, error))
@@ -25,16 +34,19 @@ pub(super) fn read(file: &str, text: &str) -> Result<Scenario, Fault> {
     let mut left_out: Vec<String> = Vec::new();
     while found.len() == left_out.len() && found.len() < MOST_FAULTS {
         let error = match scenario(&table) {
-            Ok(scenario) if found.is_empty() => return Ok(scenario),
+            Ok(scenario) if found.is_empty() => return Ok(Some(scenario)),
             Ok(_) => break,
             Err(error) => error,
         };
-        if missing(error.inner().message()).is_some_and(|key| left_out.iter().any(|out| out == key))
-        {
-            break;
+        match missing(error.inner().message()) {
+            Some(_) if circuit.is_some() && found.is_empty() => return Ok(None),
+            Some(_) if circuit.is_some() => break,
+            Some(key) if left_out.iter().any(|out| out == key) => break,
+            _ => {}
         }
         found.push(fault(file, text, error.inner()));
-        let unknown = error.inner().message().starts_with("unknown ");
+        let message = error.inner().message();
+        let unknown = message.starts_with("unknown ") || message.contains(ALLOWED);
         match leave_out(&mut table, error.path(), unknown) {
             Some(key) => left_out.push(key),
             None => break,
@@ -140,6 +152,9 @@ pub(super) fn of_lists(key: &str, message: &str) -> Option<(String, String)> {
 
 /// A message of the TOML reader as problem and what is allowed.
 pub(super) fn split(message: &str) -> (String, String) {
+    if let Some((problem, allowed)) = message.split_once(ALLOWED) {
+        return (problem.to_owned(), allowed.to_owned());
+    }
     // What the parser expects next, where the text is no TOML, is rarely what was meant.
     let of_a_value = message.starts_with("invalid ") || message.starts_with("unknown ");
     let (problem, allowed) = message

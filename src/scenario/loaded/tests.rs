@@ -99,8 +99,8 @@ fn a_fault_in_a_single_table_has_its_line() {
     let Scenario::TrajectoryController(scenario) = &loaded.scenario else {
         panic!("another circuit");
     };
-    assert_eq!(scenario.machine.mm_per_rev, 3.0);
-    assert_eq!(scenario.machine.max_torque_nm, 1.0);
+    assert_eq!(scenario.settings.machine.mm_per_rev, 3.0);
+    assert_eq!(scenario.settings.machine.max_torque_nm, 1.0);
     assert!(refusal(&text, &["machine.mass=3"]).starts_with("--set: machine.mass: unknown"));
     // Without the table in the file, the default is at fault.
     let loaded = Loaded::parse("s.toml", head, &[]).unwrap();
@@ -129,7 +129,7 @@ fn a_step_of_the_wrong_shape_is_refused_with_its_line() {
     );
     assert_eq!(
         with("[[step]]\nspeed = 1\n"),
-        "s.toml:3: speed: unknown field `speed`; allowed: one of `target`, \
+        "s.toml:3: speed: unknown key; allowed: `speed_counts_per_s` is the nearest; one of `target`, \
          `speed_counts_per_s`, `lead_ms`, `load_lead_ms`"
     );
     assert_eq!(
@@ -187,4 +187,126 @@ fn a_fault_within_the_value_of_an_override_names_its_place() {
 fn an_override_holds_one_value() {
     let set = "clock_hz=1\nline_unit_ticks=2";
     assert!(refusal(BARE, &[set]).starts_with("--set: clock_hz: invalid type: string"));
+}
+
+/// What a circuit cannot do without.
+fn least(circuit: Runnable) -> String {
+    let steps = match circuit {
+        Runnable::LeadAngle => "step = [{target = 1, speed_counts_per_s = 10, lead_ms = 5}]\n",
+        _ => "",
+    };
+    format!("circuit = \"{}\"\n{steps}", circuit.name())
+}
+
+#[test]
+fn defaults_can_be_given() {
+    for circuit in Runnable::ALL {
+        let text = least(circuit);
+        let without = Loaded::parse("s.toml", &text, &[]).unwrap().scenario;
+        let (keys, defaults) = circuit.keys();
+        let given = keys.iter().filter(|key| !key.required);
+        let given = given.filter_map(|key| Some((key.name, defaults.get(key.name)?)));
+        let given: Vec<_> = given.collect();
+        assert!(given.len() > 10, "{circuit:?}: {}", given.len());
+        for (key, value) in given {
+            let set = format!("{key}={value}");
+            let loaded = Loaded::parse("s.toml", &text, &[set]);
+            let loaded = loaded.unwrap_or_else(|fault| panic!("{circuit:?}: {fault}"));
+            assert_eq!(loaded.scenario, without, "{circuit:?}: {key} = {value}");
+        }
+    }
+}
+
+#[test]
+fn a_key_of_another_unit_names_the_key_and_the_factor() {
+    let cases = [
+        ("speed_mm_per_s", "feed_mm_per_min"),
+        ("feed_mm_per_s", "feed_mm_per_min"),
+        ("rapid_mm_per_s", "rapid_mm_per_min"),
+    ];
+    for circuit in ["arc_generator", "trajectory_controller", "machine"] {
+        for (key, name) in cases {
+            let text = format!("circuit = \"{circuit}\"\n{key} = 5\n");
+            assert_eq!(
+                refusal(&text, &[]),
+                format!(
+                    "s.toml:2: {key}: is {name}, in mm/min: 60 times the number; allowed: {name}"
+                )
+            );
+        }
+    }
+    // The arc generator has no such speed.
+    let corner = |circuit: &str| {
+        refusal(
+            &format!("circuit = \"{circuit}\"\ncorner_mm_per_s = 5\n"),
+            &[],
+        )
+    };
+    let trajectory = corner("trajectory_controller");
+    assert!(
+        trajectory.contains("is corner_mm_per_min, in mm/min: 60 times"),
+        "{trajectory}"
+    );
+    let arcs = corner("arc_generator");
+    assert!(
+        arcs.contains("corner_mm_per_s: unknown key; allowed: "),
+        "{arcs}"
+    );
+    let piece = "circuit = \"arc_generator\"\n[[piece]]\nto_mm = [1, 0, 0]\nspeed_mm_per_s = 2\n";
+    assert_eq!(
+        refusal(piece, &[]),
+        "s.toml:4: speed_mm_per_s: is feed_mm_per_min, in mm/min: 60 times the number; allowed: \
+         feed_mm_per_min"
+    );
+}
+
+#[test]
+fn another_circuit_takes_its_keys_from_the_overrides() {
+    let sets = [
+        "clock_hz=7",
+        "step=[{target=3,speed_counts_per_s=20}]",
+        "circuit=lead_angle",
+    ];
+    let sets = sets.map(str::to_owned);
+    let loaded = Loaded::parse("s.toml", "circuit = \"machine\"\nck_ticks = 50\n", &sets).unwrap();
+    let Scenario::LeadAngle(keys) = &loaded.scenario else {
+        panic!("another circuit");
+    };
+    assert_eq!((keys.settings.clock_hz, keys.settings.ck_ticks), (7, 50));
+    assert_eq!(keys.settings.steps[0].target, 3);
+    let without = refusal("circuit = \"machine\"\n", &["circuit=lead_angle"]);
+    assert!(without.starts_with("--set: step: missing; "), "{without}");
+    let wrong = refusal(
+        "circuit = \"machine\"\n",
+        &["clock_hz=fast", "circuit=arc_generator"],
+    );
+    assert!(
+        wrong.starts_with("--set: clock_hz: invalid type: string"),
+        "{wrong}"
+    );
+}
+
+#[test]
+fn keys_that_do_not_apply_are_told_all_at_once() {
+    let text = "circuit = \"machine\"\nbeside = true\nrest_ms = 5\nck_tiks = 5\nclock_hz = 9\n";
+    let mut faults = Vec::new();
+    let mut fault = Loaded::parse("s.toml", text, &[]).err().map(Box::new);
+    while let Some(mut one) = fault {
+        fault = one.next.take();
+        faults.push((one.line, one.field.clone(), one.problem.clone()));
+    }
+    let expected = [
+        (
+            2,
+            "beside",
+            "is a key of pulse_interpolator and linear_interpolator and lead_angle and \
+                       arc_generator and trajectory_controller, not of machine",
+        ),
+        (3, "rest_ms", "is a key of lead_angle, not of machine"),
+        (4, "ck_tiks", "unknown key"),
+    ];
+    assert_eq!(
+        faults,
+        expected.map(|(line, key, problem)| (line, key.into(), problem.into()))
+    );
 }

@@ -199,9 +199,10 @@ fn a_run_cut_into_pieces_is_the_same_run() {
 /// A scenario that ships with the crate, and its drawing.
 fn shipped(name: &str, text: &str, input: (&str, &[u8]), times: u32) -> (Drawing, Settings) {
     let loaded = Loaded::parse(name, text, &[]).expect("a scenario");
-    let Scenario::PulseInterpolator(mut scenario) = loaded.scenario else {
+    let Scenario::PulseInterpolator(keys) = loaded.scenario else {
         panic!("{name} is of another circuit");
     };
+    let mut scenario = keys.settings;
     scenario.clock_hz *= u64::from(times);
     scenario.line_unit_ticks *= times;
     scenario.arc_unit_ticks = scenario.arc_unit_ticks.map(|ticks| ticks * times);

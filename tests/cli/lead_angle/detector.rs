@@ -17,12 +17,12 @@ fn an_absolute_encoder_has_an_incremental_one_beside_it() {
         "detector=absolute",
     ];
     let summary = bench.json(&run);
-    assert_eq!(summary["detector"], "absolute");
+    assert_eq!(summary["settings"]["detector"], "absolute");
     assert_eq!(list(&summary, "systems").len(), 11);
     let [learning, counted] = ["learning", "incremental"].map(|name| system(&summary, name));
     assert_eq!(counted, 10);
     let other = small().json(&["run", "--beside", "s.toml", "--no-vcd"]);
-    assert_eq!(other["detector"], "incremental");
+    assert_eq!(other["settings"]["detector"], "incremental");
     let rows = list(&summary, "positionings").iter();
     for (row, other) in rows.zip(list(&other, "positionings")) {
         let error = |row: &Value, system: usize| row["error_counts"][system].as_i64().unwrap();
@@ -77,7 +77,7 @@ fn a_phase_shift_transducer_has_an_incremental_encoder_beside_it() {
     ]
     .concat();
     let summary = bench.json(&run);
-    assert_eq!(summary["detector"], "phase_shift");
+    assert_eq!(summary["settings"]["detector"], "phase_shift");
     let [learning, counted] = ["learning", "incremental"].map(|name| system(&summary, name));
     for row in list(&summary, "positionings") {
         let error = |system: usize| row["error_counts"][system].as_i64().unwrap();
@@ -147,7 +147,7 @@ fn a_resolver_has_an_incremental_encoder_beside_it() {
         "detector=resolver",
     ];
     let summary = bench.json(&run);
-    assert_eq!(summary["detector"], "resolver");
+    assert_eq!(summary["settings"]["detector"], "resolver");
     let [learning, counted] = ["learning", "incremental"].map(|name| system(&summary, name));
     for row in list(&summary, "positionings") {
         let error = |system: usize| row["error_counts"][system].as_i64().unwrap();

@@ -9,12 +9,12 @@ use super::*;
 fn a_form_has_that_of_the_figures_beside_it() {
     let bench = small();
     let drawn = small().json(&["run", "--beside", "s.toml", "--no-vcd"]);
-    assert_eq!(drawn["form"], "embodiment");
+    assert_eq!(drawn["settings"]["form"], "embodiment");
     for form in ["divided_time", "products", "early_difference"] {
         let set = format!("form={form}");
         let run = ["run", "--beside", "s.toml", "--to", "3000", "--set", &set];
         let summary = bench.json(&run);
-        assert_eq!(summary["form"], form);
+        assert_eq!(summary["settings"]["form"], form);
         let [own, other] = ["learning", "embodiment"].map(|name| system(&summary, name));
         assert_eq!((other, list(&summary, "systems").len()), (10, 11));
         assert_eq!(summary["systems"][own]["own"], true);

@@ -23,7 +23,7 @@ fn an_operation_in_passing_has_its_effect_at_the_target() {
     let fewer = ["--set", "positionings=8", "--set", "load_change_after=4"];
     let bench = Bench::new();
     let summary = bench.json(&run);
-    assert_eq!(summary["action"], "operate");
+    assert_eq!(summary["settings"]["action"], "operate");
     assert_eq!(summary["warnings"], json!([]));
     assert_eq!(summary["complaints"], json!([]));
     let [none, tuned, learning] =

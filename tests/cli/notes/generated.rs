@@ -7,6 +7,8 @@ use super::{Note, axes, blends, connections, expect_none, miscounts, notes, rota
 use motion_rtl::circuits::pulse_interpolator::counts;
 use motion_rtl::hdl::{Declaration, Format, Kind, MemoryDeclaration, Role};
 use motion_rtl::registry::{Base, CATALOGUE, Entry, Pair, ProofSearch, Verdict, find};
+use motion_rtl::scenario::Runnable;
+use motion_rtl::settings::rows;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -27,6 +29,7 @@ fn make(what: &str, stands: &str, long: bool) -> Result<String, String> {
         ("connections", Some(entry)) => Ok(connections::table(entry)),
         ("blocks", None) => Ok(blocks(name)),
         ("proofs", None) => Ok(proofs(name, if long { "" } else { stands })),
+        ("keys", _) => keys(name),
         ("literal", None) => Ok(literal()),
         ("axes", None) => Ok(axes::table()),
         ("miscounts", None) => Ok(miscounts::table()),
@@ -119,6 +122,24 @@ fn are_those_of_the_code(long: bool) {
             }
         });
     expect_none(&wrong.collect::<Vec<_>>());
+}
+
+/// The keys of a job's scenarios.
+fn keys(name: &str) -> Result<String, String> {
+    let job = Runnable::ALL.into_iter().find(|job| job.name() == name);
+    let (keys, defaults) = job.ok_or(format!("no job is called {name}"))?.keys();
+    let mut text = String::from(
+        "| key | type | unit | default | range | meaning |\n|---|---|---|---|---|---|\n",
+    );
+    for row in rows(&keys, &defaults) {
+        let (key, kind, unit, default) = (row.key, row.kind, row.unit, row.default);
+        let (range, about) = (row.range, row.about);
+        let _ = writeln!(
+            text,
+            "| `{key}` | {kind} | {unit} | {default} | {range} | {about} |"
+        );
+    }
+    Ok(text)
 }
 
 /// The circuits of a patent.

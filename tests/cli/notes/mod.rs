@@ -8,7 +8,6 @@ mod connections;
 mod figures;
 mod generated;
 mod glossary;
-mod keys;
 mod links;
 mod miscounts;
 mod rotations;

@@ -9,7 +9,7 @@ fn the_acceleration_is_told_in_other_ways() {
     let bench = with("[[piece]]\nto_mm = [8, 6, 0]\n");
     let run = ["run", "--beside", "s.toml", "--no-vcd", "--set"];
     for (set, acceleration) in [
-        ("rapid_mm_per_s=300", 2000.0),
+        ("rapid_mm_per_min=18000", 2000.0),
         ("acceleration_time_ms=50", 1000.0),
         ("axis_acceleration_mm_per_s2=[800,900]", 1000.0),
         ("axis_acceleration_mm_per_s2=480", 600.0),
@@ -40,7 +40,7 @@ fn each_axis_may_have_its_own_gains() {
         "k1_per_s=[50,40]",
     ];
     let summary = bench.json(&run);
-    assert_eq!(summary["k1_per_s"], json!([50.0, 40.0]));
+    assert_eq!(summary["settings"]["k1_per_s"], json!([50.0, 40.0]));
     assert_eq!(summary["k2_per_s"], json!(200.0));
     // F·sin·cos of the lags' difference, but for the words of the gains.
     let exact = 50.0 * 0.48 * (1.0 / 40.0 - 1.0 / 50.0) * 1e3;
@@ -60,8 +60,8 @@ fn a_torque_from_outside_is_not_corrected() {
     let set = |value| [&run[..], &[value]].concat();
     let torque = "load_torque=[{axis=\"y\",torque_nm=0.5,from_s=0.3}]";
     let summary = bench.json(&set(torque));
-    assert_eq!(summary["load_torque"][0]["axis"], "y");
-    assert_eq!(summary["load_torque"][0]["to_s"], Value::Null);
+    assert_eq!(summary["settings"]["load_torque"][0]["axis"], "y");
+    assert_eq!(summary["settings"]["load_torque"][0]["to_s"], Value::Null);
     let contour = |correction| number(of(&summary, correction), "/load/contour_max_um");
     let plain = contour("none");
     // What the loops leave of the torque, and what the shaft gives way by.

@@ -10,7 +10,7 @@ fn splines_of_a_program_are_run_as_curves() {
     let program = "G17 G21 G90\nG1 Y10 F6000\nG5 X-10 Y20 I0 J5.5228475 P5.5228475 Q0\n\
          G5 X-20 Y10 I-5.5228475 J0 P0 Q5.5228475\nX-10 Y0 P-5.5228475 Q0\nX0 Y10 P0 Q-5.5228475\n\
          G1 Y20\nM2\n";
-    let bench = with("input = \"l.ngc\"\nacceleration_mm_per_s2 = 2000\ncorner_mm_per_s = 1\n");
+    let bench = with("input = \"l.ngc\"\nacceleration_mm_per_s2 = 2000\ncorner_mm_per_min = 60\n");
     bench.write("l.ngc", program);
     let summary = bench.json(&["run", "--beside", "s.toml", "--out", "o"]);
     assert_eq!(summary["complaints"], json!([]));

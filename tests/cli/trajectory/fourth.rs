@@ -4,7 +4,7 @@ use super::*;
 
 /// Four axes need 404 ticks a period.
 const FOUR: &str = "circuit = \"trajectory_controller\"\naxes = 4\nclock_hz = 404_000\nperiod_ms = 1\n\
-     counts_per_mm = 1000\nfeed_mm_per_s = 50\n";
+     counts_per_mm = 1000\nfeed_mm_per_min = 3000\n";
 
 fn four(text: &str) -> Bench {
     Bench::with("s.toml", format!("{FOUR}{text}"))
@@ -162,9 +162,10 @@ fn w_at_fault_is_refused_with_its_line() {
          controller",
     );
     // The arc generator has none either.
-    let arc = "circuit = \"arc_generator\"\nspeed_mm_per_s = 50\n[[piece]]\nto_mm = [3, 0, 0, 4]\n";
+    let arc =
+        "circuit = \"arc_generator\"\nfeed_mm_per_min = 3000\n[[piece]]\nto_mm = [3, 0, 0, 4]\n";
     Bench::with("a.toml", arc).refuse(
         &["run", "a.toml", "--no-vcd"],
-        "a.toml:4: to_mm: invalid length 4; allowed: a list of three numbers, of X, Y and Z",
+        "a.toml:4: piece 0: to_mm: is a list of 4; allowed: three numbers, of X, Y and Z; four where there are four axes",
     );
 }

@@ -16,7 +16,7 @@ use std::path::Path;
 
 /// A millisecond of 400 ticks, 1 um a count.
 const HEAD: &str = "circuit = \"trajectory_controller\"\nclock_hz = 400_000\nperiod_ms = 1\n\
-     counts_per_mm = 1000\nfeed_mm_per_s = 50\n";
+     counts_per_mm = 1000\nfeed_mm_per_min = 3000\n";
 
 /// Ten millimetres along x.
 const LINE: &str = "[[piece]]\nto_mm = [10, 0, 0]\n";
@@ -93,8 +93,8 @@ fn the_circle_is_what_closed_forms_say() {
     );
     assert_eq!(summary["circuit"], "trajectory_controller");
     assert_eq!(summary["input"], "circle");
-    assert_eq!(summary["correction"], "vector");
-    assert_eq!(summary["rounding"], "nearest");
+    assert_eq!(summary["settings"]["correction"], "vector");
+    assert_eq!(summary["settings"]["rounding"], "nearest");
     assert_eq!(summary["exact"], true);
     let files = ["vcd", "gtkw", "svg"].map(|kind| format!("waves/circle.{kind}"));
     assert_eq!(paths(&summary), json!(files));
@@ -214,11 +214,11 @@ fn where_the_feed_changes_the_vector_is_not_right() {
     }
 }
 
-/// A piece of another feed than `feed_mm_per_s` takes the same time to it.
+/// A piece of another feed than `feed_mm_per_min` takes the same time to it.
 #[test]
 fn an_acceleration_time_is_that_to_each_feed() {
     // The same way at the same feed, with and without a second piece of another one.
-    let slow = "[[piece]]\nto_mm = [10, 0, 0]\nspeed_mm_per_s = 20\n";
+    let slow = "[[piece]]\nto_mm = [10, 0, 0]\nfeed_mm_per_min = 1200\n";
     let run = [
         "run",
         "s.toml",
@@ -239,7 +239,7 @@ fn an_acceleration_time_is_that_to_each_feed() {
     assert_eq!(summary["warnings"], json!([told]));
     // From 50 mm/s to 20 in 3/5 of the time, from 20 to rest in all of it.
     let summary = with(&format!(
-        "{LINE}[[piece]]\nto_mm = [20, 0, 0]\nspeed_mm_per_s = 20\n"
+        "{LINE}[[piece]]\nto_mm = [20, 0, 0]\nfeed_mm_per_min = 1200\n"
     ))
     .json(&run);
     let fast = 0.05 + 0.03 + (10.0 - 1.25 - 1.05) / 50.0;
@@ -255,11 +255,11 @@ fn an_acceleration_time_is_that_to_each_feed() {
         1000.0,
         1e-6,
     );
-    // Feeds in F need no feed_mm_per_s.
+    // Feeds in F need no feed_mm_per_min.
     let bench = Bench::new();
     bench.write("p.ngc", "G21 G17 G90\nG1 X10 F1200\nG1 X20 F3000\nM2\n");
     let head = HEAD.replace(
-        "feed_mm_per_s = 50\n",
+        "feed_mm_per_min = 3000\n",
         "input = \"p.ngc\"\nacceleration_time_ms = 50\n",
     );
     bench.write("f.toml", format!("{head}[machine]\n{MACHINE}"));
@@ -278,7 +278,7 @@ fn an_acceleration_time_is_that_to_each_feed() {
 fn in_shorter_periods_the_continuous_forms_hold() {
     // Two fifths of a circle, in periods of 1/4096 s.
     let text = "circuit = \"trajectory_controller\"\nclock_hz = 1_638_400\n\
-         period_ms = 0.244140625\ncounts_per_mm = 2000\nfeed_mm_per_s = 100\n\
+         period_ms = 0.244140625\ncounts_per_mm = 2000\nfeed_mm_per_min = 6000\n\
          acceleration_mm_per_s2 = 4000\nstart_mm = [10, 0, 0]\n\
          [[piece]]\nvia_mm = [0, 10, 0]\nto_mm = [-8, 6, 0]\n\
          [machine]\nmax_torque_nm = 20\nmotor_inertia_kg_m2 = 1e-3\nload_inertia_kg_m2 = 2e-3\n\
@@ -455,9 +455,9 @@ fn the_files_of_a_run() {
 #[ignore = "takes long"]
 fn every_key_of_a_scenario_is_taken() {
     let text = "circuit = \"trajectory_controller\"\ninput = \"l.ngc\"\naxes = 3\n\
-         clock_hz = 250_000\nperiod_ms = 2\ncounts_per_mm = 500\nfeed_mm_per_s = 20\n\
-         rapid_mm_per_s = 40\nacceleration_mm_per_s2 = 500\nnormal_acceleration_mm_per_s2 = 500\n\
-         jerk_time_ms = 10\ncorner_mm_per_s = 0\nk1_per_s = 40\nk2_per_s = 90\n\
+         clock_hz = 250_000\nperiod_ms = 2\ncounts_per_mm = 500\nfeed_mm_per_min = 1200\n\
+         rapid_mm_per_min = 2400\nacceleration_mm_per_s2 = 500\nnormal_acceleration_mm_per_s2 = 500\n\
+         jerk_time_ms = 10\ncorner_mm_per_min = 0\nk1_per_s = 40\nk2_per_s = 90\n\
          allow_overshoot = true\nrounding = \"floor\"\ncorrection = \"none\"\n\
          tangential_gain = 0.0625\nnormal_gain = 0.125\n\
          position_gain_per_s = 20\nspeed_hz = 15\nintegral_ms = 0\nvcd_ticks = 100\n\
@@ -473,8 +473,8 @@ fn every_key_of_a_scenario_is_taken() {
     bench.write("l.ngc", "G0 X1\nG1 Y1\nG3 X0 Y2 I-1\nG1 X-1 F600\n");
     let summary = bench.json(&["run", "--beside", "all.toml"]);
     assert_eq!(summary["complaints"], json!([]));
-    assert_eq!(summary["rounding"], "floor");
-    assert_eq!(summary["correction"], "none");
+    assert_eq!(summary["settings"]["rounding"], "floor");
+    assert_eq!(summary["settings"]["correction"], "none");
     assert_eq!(summary["feedback_gains"], json!([0.0625, 0.125]));
     assert_eq!(whole(&summary, "/axes"), 3);
     assert_eq!(whole(&summary, "/clock_hz"), 250_000);
@@ -570,9 +570,9 @@ fn a_drawing_by_itself() {
     ];
     bench.refuse(
         &run,
-        "l.hpgl:1: F: missing; allowed: a feed, or feed_mm_per_s for all",
+        "l.hpgl:1: F: missing; allowed: a feed, or feed_mm_per_min for all",
     );
-    let summary = bench.json(&[&run[..], &["--set", "feed_mm_per_s=30"]].concat());
+    let summary = bench.json(&[&run[..], &["--set", "feed_mm_per_min=1800"]].concat());
     assert_eq!(whole(&summary, "/axes"), 2);
     near(number(&summary, "/path/length_mm"), 10.0, 1e-6);
 }

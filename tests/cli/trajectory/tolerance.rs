@@ -11,11 +11,11 @@ fn a_tolerance_costs_time() {
     let limited = ["run", "--beside", "s.toml", "--out", "o", "--to", "1000"];
     let limited = [&limited[..], &["--set", "contour_tolerance_mm=0.02"]].concat();
     let full = bench.json(&["run", "--beside", "s.toml", "--no-vcd"]);
-    assert_eq!(full["contour_tolerance_mm"], Value::Null);
+    assert_eq!(full["settings"]["contour_tolerance_mm"], Value::Null);
     assert_eq!(list(&full, "corrections").len(), 4);
     let summary = bench.json(&limited);
     assert_eq!(summary["complaints"], json!([]));
-    assert_eq!(summary["contour_tolerance_mm"], 0.02);
+    assert_eq!(summary["settings"]["contour_tolerance_mm"], 0.02);
     let rows = list(&summary, "corrections");
     let kinds = rows.iter().map(|row| {
         let waves = row["in_waves"] == true;

@@ -227,6 +227,6 @@ fn moves_of_a_drawing_have_their_speeds() {
         error.to_string(),
         "piece 2 (line 9): missing; allowed: a speed of the piece, or one for all"
     );
-    settings.speed_mm_per_s = Some(5.0);
+    settings.feed_mm_per_min = Some(300.0);
     assert_eq!(speeds(&settings), Ok(vec![10.0, 200.0, 5.0]));
 }

@@ -83,7 +83,7 @@ fn speeds_and_distances_are_measured() {
     let speeds: Vec<_> = seen.iter().filter_map(|sample| sample.speed).collect();
     assert_eq!(speeds.len(), commands.len() - 1);
     let [before, arc] = [path.segments[0], path.segments[1]];
-    // A count a millisecond is 1 mm/s; each end of a step is off by √3/2 at most.
+    // A count a millisecond is 60 mm/min; each end of a step is off by √3/2 at most.
     for (sample, speed) in speeds.iter().enumerate() {
         assert!(*speed < 40.0 + 3f64.sqrt(), "{sample}: {speed}");
     }

@@ -20,7 +20,7 @@ fn refusal(pieces: &[Piece]) -> PathError {
 fn allowed_speed(error: &PathError) -> f64 {
     let allowed = error.reason.allowed();
     let rest = allowed.strip_prefix("at most ").unwrap();
-    rest.split(' ').next().unwrap().parse().unwrap()
+    rest.split(' ').next().unwrap().parse::<f64>().unwrap() / 60.0
 }
 
 #[test]
@@ -50,18 +50,18 @@ fn a_piece_without_length() {
 fn a_speed_that_is_none() {
     for (speed, shown) in [
         (0.0, "0"),
-        (-1.0, "-1"),
+        (-1.0, "-60"),
         (f64::NAN, "NaN"),
         (f64::INFINITY, "inf"),
     ] {
         let error = refusal(&[line(C, speed)]);
         assert_eq!(
             error.to_string(),
-            format!("piece 0: is {shown} mm/s; allowed: a speed above 0")
+            format!("piece 0: is {shown} mm/min; allowed: a speed above 0")
         );
         assert_eq!(
             (error.reason.field(), error.reason.word()),
-            ("speed_mm_per_s", "F")
+            ("feed_mm_per_min", "F")
         );
     }
 }
@@ -95,10 +95,10 @@ fn a_speed_too_high_for_the_radius() {
     let error = refusal(&[piece(100.0)]);
     assert_eq!(
         error.to_string(),
-        "piece 0 (line 12): at 100 mm/s a blend reaches 3.2 mm along an arc of 3 mm radius; \
-         allowed: at most 93.75 mm/s (F5625), whose blends reach no farther than the radius"
+        "piece 0 (line 12): at 6000 mm/min a blend reaches 3.2 mm along an arc of 3 mm radius; \
+         allowed: at most 5625 mm/min, whose blends reach no farther than the radius"
     );
-    assert_eq!(error.reason.field(), "speed_mm_per_s");
+    assert_eq!(error.reason.field(), "feed_mm_per_min");
     let path = prepare(A, &[piece(allowed_speed(&error))], &timing(64)).unwrap();
     assert!(path.pieces[0].speed <= 93.75);
     // A short arc says what fits in it.
@@ -113,8 +113,8 @@ fn blends_that_overlap_on_a_line() {
     let error = refusal(&[line(C, 100.0)]);
     assert_eq!(
         error.to_string(),
-        "piece 0: at 100 mm/s the blends at its ends take more than the piece, 6 mm; \
-         allowed: at most 92.3076 mm/s (F5538.45), or shorter blends"
+        "piece 0: at 6000 mm/min the blends at its ends take more than the piece, 6 mm; \
+         allowed: at most 5538.46 mm/min, or shorter blends"
     );
     let path = prepare(A, &[line(C, allowed_speed(&error))], &timing(64)).unwrap();
     assert!(
@@ -133,7 +133,7 @@ fn blends_that_overlap_on_an_arc() {
     let flat = |speed| arc(A, [3.0, 0.1, 0.0], C, speed);
     let error = refusal(&[flat(100.0)]);
     assert!(error.to_string().starts_with(
-        "piece 0: at 100 mm/s the blends at its ends take more than the piece, 6.00444"
+        "piece 0: at 6000 mm/min the blends at its ends take more than the piece, 6.00444"
     ));
     let most = allowed_speed(&error);
     let path = prepare(A, &[flat(most)], &timing(64)).unwrap();
@@ -159,7 +159,7 @@ fn too_many_samples() {
     let error = refusal(&[line([4000.0, 0.0, 0.0], 1.0)]);
     assert_eq!(
         error.to_string(),
-        "piece 0: takes 3999936 samples at 1 mm/s; allowed: at most 1048575 samples: faster, \
+        "piece 0: takes 3999936 samples at 60 mm/min; allowed: at most 1048575 samples: faster, \
          shorter, or sampled less often"
     );
     let slow = refusal(&[line([4000.0, 0.0, 0.0], 1e-300)]);
@@ -270,7 +270,7 @@ fn taught_points_that_make_no_piece() {
     assert_eq!(text(&taught(Some(C), Some(5.0))).reason.field(), "via_mm");
     assert_eq!(text(&taught(Some(A), Some(5.0))).reason.field(), "via_mm");
     let settings = Settings {
-        speed_mm_per_s: Some(8.0),
+        feed_mm_per_min: Some(480.0),
         ..settings
     };
     let pieces = from_points(A, &taught(Some(B), None), &settings).unwrap();

@@ -71,12 +71,12 @@ fn every_field_has_its_limits() {
         "counts_per_mm: is 0; allowed: 0.000001 to 1000000000"
     );
     assert_eq!(
-        shown(|s| s.speed_mm_per_s = Some(0.0)),
-        "speed_mm_per_s: is 0; allowed: 0.000001 to 1000000000"
+        shown(|s| s.feed_mm_per_min = Some(0.0)),
+        "feed_mm_per_min: is 0; allowed: 0.00006 to 60000000000"
     );
     assert_eq!(
-        shown(|s| s.rapid_mm_per_s = f64::INFINITY),
-        "rapid_mm_per_s: is inf; allowed: 0.000001 to 1000000000"
+        shown(|s| s.rapid_mm_per_min = f64::INFINITY),
+        "rapid_mm_per_min: is inf; allowed: 0.00006 to 60000000000"
     );
     assert_eq!(
         shown(|s| s.corner_deg = 180.5),

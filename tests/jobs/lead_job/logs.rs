@@ -19,6 +19,7 @@ pub(super) fn steady() -> (PositionLog, Settings) {
         target,
         speed_counts_per_s: 10_000,
         lead_ms,
+        ..Step::default()
     };
     let settings = Settings {
         steps: vec![step(3000, 30.0), step(9000, 120.0), step(15_000, 5.0)],
@@ -88,6 +89,7 @@ fn a_log_is_taken_from_its_first_sample_on() {
         target,
         speed_counts_per_s: 10_000,
         lead_ms: 10.0,
+        ..Step::default()
     };
     let settings = Settings {
         steps: vec![step(-10_000), step(-20_000)],

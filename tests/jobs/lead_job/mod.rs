@@ -26,7 +26,7 @@ fn turntable() -> Settings {
     let Scenario::LeadAngle(scenario) = &loaded.scenario else {
         panic!("another circuit");
     };
-    scenario.settings()
+    scenario.settings.clone()
 }
 
 fn with_lead(settings: &Settings) -> Played {
@@ -281,6 +281,7 @@ fn one_step(way: i64, speed_counts_per_s: u32, positionings: u32) -> Settings {
             target: way,
             speed_counts_per_s,
             lead_ms: 20.0,
+            ..Step::default()
         }],
         positionings,
         load_change_after: None,

@@ -55,6 +55,7 @@ fn step(target: i64, speed_counts_per_s: u32, lead_ms: f64) -> Step {
         target,
         speed_counts_per_s,
         lead_ms,
+        ..Step::default()
     }
 }
 

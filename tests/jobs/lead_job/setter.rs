@@ -37,7 +37,9 @@ fn a_setter_is_as_good_as_a_rom() {
 #[ignore = "takes long"]
 fn times_for_another_load_are_set_before_its_first_positioning() {
     let mut settings = turntable();
-    settings.load_leads_ms = vec![Some(22.8), None, Some(62.5), Some(51.0)];
+    for (step, ms) in [(0, 22.8), (2, 62.5), (3, 51.0)] {
+        settings.steps[step].load_lead_ms = Some(ms);
+    }
     settings.validate().expect("they are right");
     let [prepared, learned] = [&settings, &turntable()].map(with_lead);
     let change = settings.load_change_after.expect("there is one") as usize;
@@ -49,7 +51,7 @@ fn times_for_another_load_are_set_before_its_first_positioning() {
         let [before, after] = phases(&settings, &prepared, step);
         let [_, unprepared] = phases(&settings, &learned, step);
         let first = after[0];
-        match settings.load_leads_ms[step] {
+        match settings.steps[step].load_lead_ms {
             Some(ms) => {
                 assert_eq!(Some(first.code), settings.code(ms));
                 assert!(off(first) <= 30.0 && off(unprepared[0]) > 80.0, "{first:?}");
@@ -67,7 +69,7 @@ fn times_for_another_load_are_set_before_its_first_positioning() {
     for (number, one) in fixed.positionings.iter().enumerate() {
         let ms = match number < change {
             true => Some(25.0),
-            false => settings.load_leads_ms[one.step].or(Some(25.0)),
+            false => settings.steps[one.step].load_lead_ms.or(Some(25.0)),
         };
         assert_eq!(
             Some(one.code),
@@ -81,7 +83,9 @@ fn times_for_another_load_are_set_before_its_first_positioning() {
 #[test]
 fn operations_take_times_for_another_delay() {
     let mut settings = operating();
-    settings.load_leads_ms = vec![Some(30.0); 4];
+    for step in &mut settings.steps {
+        step.load_lead_ms = Some(30.0);
+    }
     let played = with_lead(&settings);
     let change = settings.load_change_after.expect("there is one") as usize;
     for one in &played.positionings[change..] {

@@ -20,9 +20,7 @@ fn short_scans() -> Settings {
         scan_ticks: LATENCY_TICKS,
         ..Settings::default()
     };
-    for axis in &mut settings.axes {
-        axis.rated_speed_rev_per_min = 2700.0;
-    }
+    settings.rated_speed_rev_per_min = [2700.0; 2];
     settings
 }
 
@@ -183,8 +181,8 @@ fn the_circuits_command_what_the_formulas_say_in_every_scan_of_a_job() {
 fn the_contour_error_of_the_circuit_is_that_of_theory() {
     let mut settings = short_scans();
     settings.rule = Rule::Centred;
-    settings.axes[0].position_gain_per_s = 50.0;
-    settings.axes[1].position_gain_per_s = 40.0;
+    settings.position_gain_per_s[0] = 50.0;
+    settings.position_gain_per_s[1] = 40.0;
     for (x, y, feed) in [
         (60_000, 80_000, 30.0),
         (80_000, 60_000, 40.0),
@@ -216,11 +214,9 @@ fn the_contour_error_of_the_circuit_is_that_of_theory() {
 #[test]
 fn the_contour_error_of_unequal_gains_is_that_of_theory() {
     let mut settings = Settings::default();
-    settings.axes[0].position_gain_per_s = 50.0;
-    settings.axes[1].position_gain_per_s = 40.0;
-    for axis in &mut settings.axes {
-        axis.velocity_loop_ms = 1e-3;
-    }
+    settings.position_gain_per_s[0] = 50.0;
+    settings.position_gain_per_s[1] = 40.0;
+    settings.velocity_loop_ms = [1e-3; 2];
     // 30 counts a scan in X are 150 mm/s, 40 in Y are 200: F = 250 mm/s.
     let played = reference::play(
         &[target(60_000, 80_000, 40, [100, 100])],
@@ -258,7 +254,7 @@ fn without_an_exact_stop_cycles_follow_each_other_at_once() {
 fn a_motor_that_is_too_slow_is_counted_as_saturated() {
     let mut settings = Settings::default();
     // 200 counts/s are less than the 1000 asked for.
-    settings.axes[1].rated_speed_rev_per_min = 3.0;
+    settings.rated_speed_rev_per_min[1] = 3.0;
     let targets = [target(1000, 1000, 1, [10, 10])];
     let played = reference::play(&targets, &settings, &mut |_| ());
     assert_eq!(played.saturated_scans[0], 0);
@@ -268,7 +264,7 @@ fn a_motor_that_is_too_slow_is_counted_as_saturated() {
 #[test]
 fn a_setting_that_is_no_number_is_refused() {
     let mut settings = short_scans();
-    settings.axes[1].position_gain_per_s = f64::NAN;
+    settings.position_gain_per_s[1] = f64::NAN;
     let error = play::<1>(&plotter(&settings), &[], &settings, &mut ()).expect_err("not a number");
     assert!(
         error.to_string().starts_with("position_gain_per_s: "),

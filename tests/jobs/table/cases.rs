@@ -13,10 +13,10 @@ fn plain() -> Settings {
         clock_hz: 1_000_000,
         steps_per_mm: vec![100.0, 100.0],
         timing: StepTiming {
-            min_high: 1,
-            min_low: 1,
-            dir_setup: 0,
-            dir_hold: 0,
+            step_high_ticks: 1,
+            step_low_ticks: 1,
+            dir_setup_ticks: 0,
+            dir_hold_ticks: 0,
         },
         ..Settings::default().with_period(1000)
     }
@@ -147,10 +147,10 @@ fn demand_beyond_every_unit_time_has_no_remedy_and_still_ends() {
     let (path, mut settings) = fast();
     // 60 steps in 1000 ticks, of which no two may be closer than 40.
     settings.timing = StepTiming {
-        min_high: 20,
-        min_low: 20,
-        dir_setup: 0,
-        dir_hold: 0,
+        step_high_ticks: 20,
+        step_low_ticks: 20,
+        dir_setup_ticks: 0,
+        dir_hold_ticks: 0,
     };
     let (_, report) = run(&path, &settings);
     assert!(report.appended_units > 1000 && report.unattainable_units > 0);
@@ -208,8 +208,8 @@ fn direction_timing_is_kept_at_every_reversal() {
         );
         for (dir_setup, dir_hold) in [(0, 300), (300, 0), (300, 300), (300, 650), (999, 1000)] {
             let timing = StepTiming {
-                dir_setup,
-                dir_hold,
+                dir_setup_ticks: dir_setup,
+                dir_hold_ticks: dir_hold,
                 ..free.timing
             };
             run(

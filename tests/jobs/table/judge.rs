@@ -124,10 +124,10 @@ fn judge(path: &Drawing, settings: &Settings, table: &Table, report: &Report) {
         assert_eq!(i64::from(axis.start_position), from);
         assert_eq!(i64::from(axis.end_position), to);
         let StepTiming {
-            min_high,
-            min_low,
-            dir_setup,
-            dir_hold,
+            step_high_ticks: min_high,
+            step_low_ticks: min_low,
+            dir_setup_ticks: dir_setup,
+            dir_hold_ticks: dir_hold,
         } = settings.timing;
         assert!(
             played.min_high.is_none_or(|t| t >= u64::from(min_high)),

@@ -75,10 +75,10 @@ fn any_settings() -> impl Strategy<Value = Settings> {
                 line_unit_ticks: periods[0],
                 arc_unit_ticks: periods[1],
                 timing: StepTiming {
-                    min_high: timing[0],
-                    min_low: timing[1],
-                    dir_setup: timing[2],
-                    dir_hold: timing[3],
+                    step_high_ticks: timing[0],
+                    step_low_ticks: timing[1],
+                    dir_setup_ticks: timing[2],
+                    dir_hold_ticks: timing[3],
                 },
                 ..Settings::default()
             },

@@ -133,45 +133,42 @@ fn every_setting_is_refused_by_name_value_and_range() {
             "in_position_counts: is 0; allowed: 1 to 1000000",
         ),
         (
-            &|s| s.axes[0].position_gain_per_s = 1001.0,
+            &|s| s.position_gain_per_s[0] = 1001.0,
             "position_gain_per_s: is 1001 for x; allowed: 0.001 to 1000",
         ),
         (
-            &|s| s.axes[1].position_gain_per_s = 0.0,
+            &|s| s.position_gain_per_s[1] = 0.0,
             "position_gain_per_s: is 0 for y; ",
         ),
         (
-            &|s| s.axes[0].counts_per_rev = 3,
+            &|s| s.counts_per_rev[0] = 3,
             "counts_per_rev: is 3 for x; allowed: 4 to 100000000",
         ),
         (
-            &|s| s.axes[1].rated_speed_rev_per_min = 15_001.0,
+            &|s| s.rated_speed_rev_per_min[1] = 15_001.0,
             "rated_speed_rev_per_min: is 15001 for y; allowed: 0.001 to 15000",
         ),
         (
-            &|s| s.axes[1].rated_speed_rev_per_min = 0.0,
+            &|s| s.rated_speed_rev_per_min[1] = 0.0,
             "rated_speed_rev_per_min: is 0 for y; ",
         ),
         (
-            &|s| s.axes[0].velocity_loop_ms = 0.0,
+            &|s| s.velocity_loop_ms[0] = 0.0,
             "velocity_loop_ms: is 0 for x; allowed: 0.001 to 10000",
         ),
         (
-            &|s| s.axes[0].inertia_kg_m2 = 0.0,
+            &|s| s.inertia_kg_m2[0] = 0.0,
             "inertia_kg_m2: is 0 for x; allowed: 0.000000001 to 1000",
         ),
         (
-            &|s| s.axes[1].max_torque_nm = -1.0,
+            &|s| s.max_torque_nm[1] = -1.0,
             "max_torque_nm: is -1 for y; allowed: 0.000001 to 1000000",
         ),
         (
-            &|s| s.axes[1].friction_nm = 0.9,
+            &|s| s.friction_nm[1] = 0.9,
             "friction_nm: is 0.9 for y; allowed: 0 to below max_torque_nm, 0.9",
         ),
-        (
-            &|s| s.axes[0].friction_nm = -0.1,
-            "friction_nm: is -0.1 for x; ",
-        ),
+        (&|s| s.friction_nm[0] = -0.1, "friction_nm: is -0.1 for x; "),
     ];
     for (change, expected) in cases {
         let mut settings = Settings::default();

@@ -231,7 +231,7 @@ fn chords_of_a_curve_run_at_feed() {
         };
         let settings = Settings {
             jerk_time_ms,
-            corner_mm_per_s: 1.0,
+            corner_mm_per_min: 60.0,
             acceleration_mm_per_s2: Some(1000.0),
             ..Settings::default()
         };
@@ -281,7 +281,7 @@ fn a_tangent_arc_is_entered_without_a_stop_at_the_speed_of_its_radius() {
     pieces.push(piece);
     let settings = Settings {
         normal_acceleration_mm_per_s2: 800.0,
-        corner_mm_per_s: 0.0,
+        corner_mm_per_min: 0.0,
         ..Settings::default()
     };
     let motion = settings.motion(&Widths::FULL).unwrap();
@@ -303,7 +303,7 @@ fn a_slower_curve_is_slowed_down_for_no_more_than_it_needs() {
     // A turn of up to 0.0068 rad a chord: with 0.3 mm/s, 44 mm/s and more of 80 mm/s.
     let settings = |jerk_time_ms| Settings {
         jerk_time_ms,
-        corner_mm_per_s: 0.3,
+        corner_mm_per_min: 18.0,
         acceleration_mm_per_s2: Some(1000.0),
         ..Settings::default()
     };

@@ -247,7 +247,7 @@ fn what_does_not_fit_is_refused_with_the_width_it_needs() {
         speed: 0.0,
         ..far(1.0)
     };
-    assert!(refusal(origin, &[still], 1000.0).contains("is 0 mm/s"));
+    assert!(refusal(origin, &[still], 1000.0).contains("is 0 mm/min"));
     let moved = Piece {
         to: [2001.0, 0.0, 0.0],
         ..flat

@@ -28,8 +28,8 @@ fn what_is_not_allowed_is_refused_with_what_is() {
         ("period_ms", |s| s.period_ms = 0.0),
         ("period_ms", |s| s.period_ms = f64::NAN),
         ("counts_per_mm", |s| s.counts_per_mm = 0.0),
-        ("feed_mm_per_s", |s| s.feed_mm_per_s = Some(0.0)),
-        ("rapid_mm_per_s", |s| s.rapid_mm_per_s = f64::INFINITY),
+        ("feed_mm_per_min", |s| s.feed_mm_per_min = Some(0.0)),
+        ("rapid_mm_per_min", |s| s.rapid_mm_per_min = f64::INFINITY),
         ("acceleration_mm_per_s2", |s| {
             s.acceleration_mm_per_s2 = Some(0.0)
         }),
@@ -38,7 +38,7 @@ fn what_is_not_allowed_is_refused_with_what_is() {
         }),
         ("jerk_time_ms", |s| s.jerk_time_ms = -1.0),
         ("jerk_time_ms", |s| s.jerk_time_ms = f64::NAN),
-        ("corner_mm_per_s", |s| s.corner_mm_per_s = -1.0),
+        ("corner_mm_per_min", |s| s.corner_mm_per_min = -60.0),
         ("k1_per_s", |s| s.k1_per_s = f64::NAN.into()),
         ("k1_per_s", |s| s.k1_per_s = EachAxis::All(-50.0)),
         ("k2_per_s", |s| s.k2_per_s = f64::NAN.into()),
@@ -89,8 +89,8 @@ fn what_is_not_allowed_is_refused_with_what_is() {
 
 #[test]
 fn a_time_is_that_to_each_feed() {
-    let settings = |feed_mm_per_s, acceleration_time_ms| Settings {
-        feed_mm_per_s,
+    let settings = |feed: Option<f64>, acceleration_time_ms| Settings {
+        feed_mm_per_min: feed.map(|feed| 60.0 * feed),
         acceleration_time_ms: Some(acceleration_time_ms),
         ..Settings::default()
     };

@@ -96,7 +96,7 @@ fn at_a_corner_it_jumps() {
     let machine = [TwoMassParameters::default(); 2];
     let seen = |correction, tangential, normal| {
         let settings = Settings {
-            corner_mm_per_s: 200.0,
+            corner_mm_per_min: 12_000.0,
             ..fed(tangential, normal)
         };
         let run = run([0.0; 3], &corner, &settings, &machine, correction);

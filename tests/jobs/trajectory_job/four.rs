@@ -12,7 +12,7 @@ use motion_rtl::path::pieces::{Speeds, Taught, from_points};
 fn with_w() -> Settings {
     Settings {
         clock_hz: 1000 * (LEAST_PERIOD_TICKS + 4),
-        corner_mm_per_s: 20.0,
+        corner_mm_per_min: 1200.0,
         ..Settings::default()
     }
 }

@@ -87,9 +87,9 @@ fn a_corner() {
         line([15.0, 0.0, 0.0], 100.0),
         line([15.0, 10.0, 0.0], 100.0),
     ];
-    for corner_mm_per_s in [0.0, 30.0] {
+    for corner_mm_per_min in [0.0, 1800.0] {
         let settings = Settings {
-            corner_mm_per_s,
+            corner_mm_per_min,
             ..settings()
         };
         for correction in ALL {
@@ -103,7 +103,7 @@ fn a_corner() {
             check(&run, correction);
             let measured = run.measured();
             // Models lag, so they cut the corner, even where the command stops there for a moment.
-            let cut = match (corner_mm_per_s > 0.0, correction) {
+            let cut = match (corner_mm_per_min > 0.0, correction) {
                 (false, Correction::Vector) => 0.0825,
                 (false, _) => 0.0936,
                 (true, Correction::Vector) => 0.1738,

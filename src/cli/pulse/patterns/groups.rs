@@ -20,7 +20,7 @@ use motion_rtl::jobs::pulse_interpolator::job::Played;
 use motion_rtl::jobs::pulse_interpolator::{StepTiming, Stored, StoredError};
 use motion_rtl::picture::{Curve, Panel, Picture, Points};
 use motion_rtl::scenario::Loaded;
-use motion_rtl::scenario::pulse_interpolator::{GroupKeys, Scenario};
+use motion_rtl::scenario::pulse_interpolator::{GroupKeys, Settings};
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -71,14 +71,14 @@ pub struct Job {
     pub loaded: Loaded,
     /// Stem of the names of its files.
     pub stem: String,
-    scenario: Scenario,
+    scenario: Settings,
     timing: StepTiming,
     members: [Member; 2],
 }
 
 impl Job {
     /// Reads the tables of the patterns and puts them into the memories of both groups.
-    pub fn prepare(source: Source, scenario: &Scenario) -> Result<Self, Failure> {
+    pub fn prepare(source: Source, scenario: &Settings) -> Result<Self, Failure> {
         let loaded = &source.loaded;
         for (key, given) in [
             ("play", scenario.play.is_some()),
@@ -107,7 +107,7 @@ impl Job {
         Ok(Job {
             loaded,
             stem,
-            timing: scenario.timing(),
+            timing: scenario.timing,
             scenario: scenario.clone(),
             members,
         })
@@ -117,7 +117,7 @@ impl Job {
 /// A group with the patterns that it plays in its memory.
 fn member(
     loaded: &Loaded,
-    scenario: &Scenario,
+    scenario: &Settings,
     patterns: &[Pattern],
     (group, keys): (usize, &GroupKeys),
 ) -> Result<Member, Fault> {
@@ -217,7 +217,7 @@ pub fn systems(job: &Job) -> Vec<System<'_>> {
 /// Has both groups play.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     has_no_segments(arguments)?;
-    let options = options(arguments, job.scenario.vcd_ticks)?;
+    let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let circuit = circuit(&job.members);
     let model = model(&circuit).map_err(RunError::from)?;
     let ticks = ticks(job);

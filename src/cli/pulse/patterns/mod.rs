@@ -18,7 +18,7 @@ use motion_rtl::jobs::pulse_interpolator::table::MAX_UNITS;
 use motion_rtl::jobs::pulse_interpolator::{AxisScaling, StepTiming, Stored, StoredError, Table};
 use motion_rtl::picture::{Curve, Panel, Picture, Points};
 use motion_rtl::scenario::Loaded;
-use motion_rtl::scenario::pulse_interpolator::{PatternKeys, Scenario};
+use motion_rtl::scenario::pulse_interpolator::{PatternKeys, Settings};
 use summary::Summary;
 
 /// Patterns ready to be played.
@@ -27,7 +27,7 @@ pub struct Job {
     pub loaded: Loaded,
     /// Stem of the names of its files.
     pub stem: String,
-    scenario: Scenario,
+    scenario: Settings,
     timing: StepTiming,
     patterns: Vec<Pattern>,
     stored: Stored,
@@ -47,7 +47,7 @@ struct Pattern {
 
 impl Job {
     /// Reads the tables of the patterns and puts them into the memory.
-    pub fn prepare(source: Source, scenario: &Scenario) -> Result<Self, Failure> {
+    pub fn prepare(source: Source, scenario: &Settings) -> Result<Self, Failure> {
         let loaded = &source.loaded;
         let patterns = patterns(&source, scenario)?;
         let order = order(loaded, scenario)?;
@@ -58,7 +58,7 @@ impl Job {
             scenario.variant.into(),
             scenario.standalone,
         )
-        .and_then(|stored| stored.rewritten(&scenario.rewrites()))
+        .and_then(|stored| stored.rewritten(&scenario.rewrite))
         .map_err(|error| stored_fault(loaded, error))?;
         let motors = scenario.motors(stored.group.axes);
         let motors = motors.map_err(|error| loaded.refuse(error))?;
@@ -66,7 +66,7 @@ impl Job {
         Ok(Job {
             loaded,
             stem,
-            timing: scenario.timing(),
+            timing: scenario.timing,
             scenario: scenario.clone(),
             patterns,
             stored,
@@ -76,13 +76,13 @@ impl Job {
 }
 
 /// Reads the tables of the patterns.
-fn patterns(source: &Source, scenario: &Scenario) -> Result<Vec<Pattern>, Failure> {
+fn patterns(source: &Source, scenario: &Settings) -> Result<Vec<Pattern>, Failure> {
     let loaded = &source.loaded;
-    if scenario.input.is_some() {
+    if loaded.scenario.input().is_some() {
         let problem = "given beside [[pattern]]".to_owned();
         return Err(loaded.fault("input", problem, "one of both".into()).into());
     }
-    if scenario.beside {
+    if loaded.scenario.beside() {
         let problem = "given beside [[pattern]]".to_owned();
         let allowed = "a drawing, which the conventional device plays too".to_owned();
         return Err(loaded.fault("beside", problem, allowed).into());
@@ -130,7 +130,7 @@ fn patterns(source: &Source, scenario: &Scenario) -> Result<Vec<Pattern>, Failur
 }
 
 /// The patterns that are played, by their numbers.
-fn order(loaded: &Loaded, scenario: &Scenario) -> Result<Vec<usize>, Fault> {
+fn order(loaded: &Loaded, scenario: &Settings) -> Result<Vec<usize>, Fault> {
     match &scenario.play {
         None => Ok((0..scenario.pattern.len()).collect()),
         Some(play) => found(scenario, play, |problem, allowed| {
@@ -141,7 +141,7 @@ fn order(loaded: &Loaded, scenario: &Scenario) -> Result<Vec<usize>, Fault> {
 
 /// The patterns of these names, by their numbers.
 fn found(
-    scenario: &Scenario,
+    scenario: &Settings,
     play: &[String],
     refuse: impl Fn(String, String) -> Fault,
 ) -> Result<Vec<usize>, Fault> {
@@ -210,7 +210,7 @@ pub fn systems(job: &Job) -> Vec<System<'_>> {
 /// Plays patterns.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     has_no_segments(arguments)?;
-    let options = options(arguments, job.scenario.vcd_ticks)?;
+    let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let stored = &job.stored;
     let (played, mut files) = simulate(
         arguments,

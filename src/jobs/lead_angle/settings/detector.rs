@@ -3,7 +3,6 @@
 use super::{Detector, SettingError, Settings, WIDTHS};
 use crate::circuits::lead_angle::TrackingConverter;
 use crate::plant::{PhaseShiftTransducer, ResolverParameters};
-use crate::settings::within;
 use std::ops::RangeInclusive;
 
 /// Counts of a turn that an absolute encoder can have, by twos: as many as it has words at most.
@@ -49,7 +48,6 @@ impl Settings {
     pub(super) fn validate_detector(&self) -> Result<(), SettingError> {
         self.validate_resolver()?;
         let (ppm, turn) = (self.sampling_clock_ppm, self.body.counts_per_rev);
-        within("sampling_clock_ppm", ppm, &SAMPLING_RANGE_PPM)?;
         let refused = |allowed: &str| Err(SettingError::value("sampling_clock_ppm", ppm, allowed));
         let (range, allowed) = match self.detector {
             Detector::Incremental if ppm == 0.0 => return Ok(()),
@@ -104,7 +102,6 @@ impl Settings {
     /// What a resolver has, no other detector does; and a CK is long enough for its conversion.
     fn validate_resolver(&self) -> Result<(), SettingError> {
         let (own, without) = (self.resolver, ResolverParameters::default());
-        own.validate()?;
         let least = CONVERSION_TICKS;
         if self.detector == Detector::Resolver {
             let allowed = format!("{least} or more with detector = \"resolver\": a conversion");

@@ -77,8 +77,10 @@ impl Settings {
 
     /// Times for another load need one, and go with the steps that have a time.
     pub(super) fn validate_load_leads(&self) -> Result<(), SettingError> {
-        for (index, ms) in self.load_leads_ms.iter().enumerate() {
-            let Some(ms) = *ms else { continue };
+        for (index, step) in self.steps.iter().enumerate() {
+            let Some(ms) = step.load_lead_ms else {
+                continue;
+            };
             let refused = match (self.load_change_after, self.common_time && index > 0) {
                 (None, _) => Some("it with load_change_after only"),
                 (_, true) => Some("none: with common_time all steps take that of step 0"),

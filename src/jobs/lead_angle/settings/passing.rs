@@ -105,7 +105,7 @@ impl Settings {
                     true => self.steps[0].lead_ms,
                     false => self.steps[index].lead_ms,
                 };
-                let later = self.load_leads_ms.get(index).copied().flatten();
+                let later = self.steps[index].load_lead_ms;
                 let mut all = vec![set(first)];
                 all.extend(later.map(set));
                 if self.learn {

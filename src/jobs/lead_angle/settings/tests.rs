@@ -238,7 +238,7 @@ fn turntable() -> Settings {
     let Scenario::LeadAngle(scenario) = &loaded.scenario else {
         panic!("another circuit");
     };
-    scenario.settings()
+    scenario.settings.clone()
 }
 
 /// A positioning with an ideal lead: the lead time it took in milliseconds, and how long the speed

@@ -116,7 +116,7 @@ struct Kind {
 impl Kind {
     fn new(settings: &Settings, period: u32) -> Self {
         let limits = settings.pulse_limits();
-        let lead = settings.timing.dir_setup;
+        let lead = settings.timing.dir_setup_ticks;
         Self {
             counts: CountTable::new(period, &limits),
             turning: CountTable::new(period, &PulseLimits { lead, ..limits }),
@@ -249,7 +249,7 @@ impl<'s> Compiler<'s> {
             period: counts.period(),
             pulses: offer.pulses,
             lead: if turning {
-                self.settings.timing.dir_setup
+                self.settings.timing.dir_setup_ticks
             } else {
                 0
             },
@@ -272,7 +272,7 @@ impl<'s> Compiler<'s> {
         };
         let limits = PulseLimits {
             lead: last.lead,
-            tail: self.settings.timing.dir_hold,
+            tail: self.settings.timing.dir_hold_ticks,
             ..self.settings.pulse_limits()
         };
         let Some(half_period) = choose_half_period(last.pulses, last.period, &limits) else {

@@ -4,24 +4,36 @@ use super::count_table::PulseLimits;
 use crate::circuits::pulse_interpolator::AXIS_NAMES;
 use crate::input::COORDINATES;
 use crate::plan::MotionLimits;
-use crate::settings::{CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, Place, SettingError, within};
+use crate::settings::{CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, Place, SettingError, settings, within};
 use std::ops::RangeInclusive;
 
 /// Widths of the half-period and of the unit-time register that are accepted, in bits. The memory
 /// word keeps one of its 32 bits for the direction.
 pub const WIDTH_RANGE: RangeInclusive<u32> = 2..=31;
 
-/// Timing the motor driver asks of its step and direction inputs, in reference ticks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct StepTiming {
-    /// Shortest high time of the step signal.
-    pub min_high: u32,
-    /// Shortest low time of the step signal.
-    pub min_low: u32,
-    /// Shortest time from a change of direction to the next rising edge.
-    pub dir_setup: u32,
-    /// Shortest time from a rising edge to a change of direction.
-    pub dir_hold: u32,
+settings! {
+    /// Timing that the motor driver requires of its step and direction inputs, in reference ticks.
+    #[derive(Copy, Eq)]
+    pub struct StepTiming {
+        /// Shortest high time of the step line.
+        pub step_high_ticks: u32 = 2, "up to half of a unit time";
+        /// Shortest low time of the step line.
+        pub step_low_ticks: u32 = 2, "what a unit time leaves beside the high time";
+        /// Shortest time from a change of the direction line to the next step.
+        pub dir_setup_ticks: u32 = 5, "what a unit time leaves beside the high time";
+        /// Shortest time from a step to a change of the direction line.
+        pub dir_hold_ticks: u32 = 5, "up to a unit time";
+    }
+}
+
+impl StepTiming {
+    /// Timing of a driver that requires nothing.
+    pub const NONE: Self = StepTiming {
+        step_high_ticks: 0,
+        step_low_ticks: 0,
+        dir_setup_ticks: 0,
+        dir_hold_ticks: 0,
+    };
 }
 
 /// Settings of [`compile`](super::compile()).
@@ -58,12 +70,7 @@ impl Default for Settings {
             arc_unit_ticks: 1000,
             half_period_bits: 16,
             period_bits: 24,
-            timing: StepTiming {
-                min_high: 2,
-                min_low: 2,
-                dir_setup: 5,
-                dir_hold: 5,
-            },
+            timing: StepTiming::default(),
         }
     }
 }
@@ -89,7 +96,7 @@ impl Settings {
                 return Err(error.at(Place::Element(name)));
             }
         }
-        self.motion.validate()?;
+        self.motion.ranges()?;
         within("half_period_bits", self.half_period_bits, &WIDTH_RANGE)?;
         within("period_bits", self.period_bits, &WIDTH_RANGE)?;
         self.check_period("line_unit_ticks", self.line_unit_ticks)?;
@@ -100,10 +107,10 @@ impl Settings {
     /// not end on every position. One pulse needs a half-period of a third of T.
     fn check_period(&self, field: &'static str, period: u32) -> Result<(), SettingError> {
         let StepTiming {
-            min_high,
-            min_low,
-            dir_setup,
-            dir_hold,
+            step_high_ticks: min_high,
+            step_low_ticks: min_low,
+            dir_setup_ticks: dir_setup,
+            dir_hold_ticks: dir_hold,
         } = self.timing;
         let max_half_period = self.pulse_limits().max_half_period;
         let longest = ((1 << self.period_bits) - 1).min(max_half_period.saturating_mul(3));
@@ -122,10 +129,12 @@ impl Settings {
     /// What a unit's pulses must keep to where the direction stays.
     #[must_use]
     pub fn pulse_limits(&self) -> PulseLimits {
-        let StepTiming {
-            min_high, min_low, ..
-        } = self.timing;
-        PulseLimits::new(self.half_period_bits, min_high, min_low)
+        let timing = self.timing;
+        PulseLimits::new(
+            self.half_period_bits,
+            timing.step_high_ticks,
+            timing.step_low_ticks,
+        )
     }
 
     /// The same settings with one unit time for lines and arcs alike.
@@ -207,19 +216,19 @@ mod tests {
                 "period_bits: is 1; allowed: 2 to 31",
             ),
             (
-                refusal(|s| s.timing.min_high = 501),
+                refusal(|s| s.timing.step_high_ticks = 501),
                 "step_high_ticks: is 501; allowed: 0 to 500",
             ),
             (
-                refusal(|s| s.timing.min_low = 999),
+                refusal(|s| s.timing.step_low_ticks = 999),
                 "step_low_ticks: is 999; allowed: 0 to 998",
             ),
             (
-                refusal(|s| s.timing.dir_setup = 999),
+                refusal(|s| s.timing.dir_setup_ticks = 999),
                 "dir_setup_ticks: is 999; allowed: 0 to 998",
             ),
             (
-                refusal(|s| s.timing.dir_hold = 1001),
+                refusal(|s| s.timing.dir_hold_ticks = 1001),
                 "dir_hold_ticks: is 1001; allowed: 0 to 1000",
             ),
         ];
@@ -237,10 +246,10 @@ mod tests {
                 for (min_high, min_low) in sizes.iter().flat_map(|&h| sizes.map(|l| (h, l))) {
                     for dir_setup in sizes {
                         let timing = StepTiming {
-                            min_high,
-                            min_low,
-                            dir_setup,
-                            dir_hold: 0,
+                            step_high_ticks: min_high,
+                            step_low_ticks: min_low,
+                            dir_setup_ticks: dir_setup,
+                            dir_hold_ticks: 0,
                         };
                         let settings = Settings {
                             half_period_bits: bits,

@@ -1,0 +1,247 @@
+//! `keys`: what it prints, and that its schemas are those of the scenarios that ship.
+
+use super::support::Bench;
+use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
+
+/// Circuits that schemas are made of.
+const CIRCUITS: [&str; 6] = [
+    "pulse_interpolator",
+    "linear_interpolator",
+    "lead_angle",
+    "arc_generator",
+    "trajectory_controller",
+    "machine",
+];
+
+/// What of a value a schema does not allow, with the place of each.
+fn violations(schema: &Value, value: &Value, place: &str, found: &mut Vec<String>) {
+    let mut wrong = |what: &str| found.push(format!("{place}: {value} is not {what}"));
+    let types = match &schema["type"] {
+        Value::Array(types) => types.clone(),
+        Value::Null => Vec::new(),
+        one => vec![one.clone()],
+    };
+    let is = |name: &Value| match name.as_str().expect("a name of a type") {
+        "object" => value.is_object(),
+        "array" => value.is_array(),
+        "string" => value.is_string(),
+        "boolean" => value.is_boolean(),
+        "number" => value.is_number(),
+        "integer" => value.is_i64() || value.is_u64(),
+        other => panic!("{place}: there is no type {other}"),
+    };
+    if !types.is_empty() && !types.iter().any(is) {
+        wrong(&format!("of type {}", schema["type"]));
+    }
+    if schema.get("const").is_some_and(|only| only != value) {
+        wrong(&schema["const"].to_string());
+    }
+    let names = schema.get("enum").and_then(Value::as_array);
+    if names.is_some_and(|names| !names.contains(value)) {
+        wrong(&format!("one of {}", schema["enum"]));
+    }
+    let number = |key: &str| schema.get(key).and_then(Value::as_f64);
+    if let Some(value) = value.as_f64() {
+        if number("minimum").is_some_and(|least| value < least) {
+            wrong(&format!("from {}", schema["minimum"]));
+        }
+        if number("maximum").is_some_and(|most| value > most) {
+            wrong(&format!("up to {}", schema["maximum"]));
+        }
+    }
+    if let Value::Array(list) = value {
+        let length = list.len() as f64;
+        if number("minItems").is_some_and(|least| length < least)
+            || number("maxItems").is_some_and(|most| length > most)
+        {
+            wrong("a list of its length");
+        }
+        for (index, element) in list.iter().enumerate() {
+            violations(
+                &schema["items"],
+                element,
+                &format!("{place}[{index}]"),
+                found,
+            );
+        }
+    }
+    let Value::Object(table) = value else { return };
+    for key in schema["required"].as_array().into_iter().flatten() {
+        if !table.contains_key(key.as_str().expect("a key")) {
+            found.push(format!("{place}: {key} is missing"));
+        }
+    }
+    for (key, value) in table {
+        match schema["properties"].get(key) {
+            Some(schema) => violations(schema, value, &format!("{place}.{key}"), found),
+            None => found.push(format!("{place}: there is no key {key}")),
+        }
+    }
+}
+
+/// What of a scenario in TOML its circuit's schema does not allow.
+fn judge(schemas: &[(&str, Value)], scenario: &str) -> Vec<String> {
+    let scenario: toml::Table = scenario.parse().expect("TOML");
+    let scenario = serde_json::to_value(scenario).expect("JSON");
+    let circuit = scenario["circuit"].as_str().expect("a circuit");
+    let schema = schemas.iter().find(|(name, _)| *name == circuit);
+    let mut found = Vec::new();
+    if let Some((name, schema)) = schema {
+        violations(schema, &scenario, name, &mut found);
+    }
+    found
+}
+
+fn schemas() -> Vec<(&'static str, Value)> {
+    let bench = Bench::new();
+    let schema = |name| {
+        let text = bench.succeed(&["keys", name, "--json-schema"]);
+        (name, serde_json::from_str(&text).unwrap())
+    };
+    CIRCUITS.map(schema).to_vec()
+}
+
+#[test]
+fn scenarios_that_ship_are_those_of_their_schemas() {
+    let schemas = schemas();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("waves");
+    let mut judged = 0;
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "toml")
+        {
+            let found = judge(&schemas, &fs::read_to_string(&path).unwrap());
+            assert!(found.is_empty(), "{}: {found:#?}", path.display());
+            judged += 1;
+        }
+    }
+    assert!(judged >= 20, "{judged}");
+}
+
+#[test]
+fn schemas_refuse_what_a_run_refuses() {
+    let schemas = schemas();
+    let cases = [
+        ("clock_mhz = 1", "machine: there is no key clock_mhz"),
+        ("beside = true", "machine: there is no key beside"),
+        ("clock_hz = 0", "machine.clock_hz: 0 is not from 1"),
+        (
+            "clock_hz = 1.5",
+            "machine.clock_hz: 1.5 is not of type \"integer\"",
+        ),
+        (
+            "scan_ticks = 185",
+            "machine.scan_ticks: 185 is not from 186",
+        ),
+        (
+            "steps_per_mm = [40]",
+            "machine.steps_per_mm: [40] is not a list of its length",
+        ),
+        (
+            "correction = \"wild\"",
+            "machine.correction: \"wild\" is not one of ",
+        ),
+        ("lift_history = 3", "machine.lift_history: 3 is not one of "),
+        (
+            "[lift]\nbrake_fade = 0.6",
+            "machine.lift: \"counts_per_rev\" is missing",
+        ),
+        (
+            "[program]\ng54_mm = [0, 0, 2e6]",
+            "machine.program.g54_mm[2]: 2000000.0 is not up to ",
+        ),
+    ];
+    for (keys, expected) in cases {
+        let text = format!("circuit = \"machine\"\n{keys}\n");
+        let found = judge(&schemas, &text);
+        assert!(
+            found
+                .first()
+                .is_some_and(|first| first.starts_with(expected)),
+            "{keys}: {found:?}"
+        );
+        let refused = motion_rtl::scenario::Loaded::parse("s.toml", &text, &[]);
+        // Ranges are checked by the job, types and names by the reader.
+        assert_eq!(
+            refused.is_err(),
+            !expected.contains(" from ") && !expected.contains("up to"),
+            "{keys}"
+        );
+    }
+    assert_eq!(judge(&schemas, "circuit = \"machine\"\n"), [""; 0]);
+}
+
+#[test]
+fn keys_are_printed_with_type_unit_default_range_and_meaning() {
+    let bench = Bench::new();
+    let names = bench.run(&["keys"]);
+    assert_eq!(names.code, 0);
+    assert!(
+        names.stdout.lines().any(|name| name == "machine"),
+        "{}",
+        names.stdout
+    );
+    let text = bench.run(&["keys", "machine"]).stdout;
+    for lines in [
+        "circuit (required): name, \"pulse_interpolator\", ",
+        "scan_ticks = 400: whole number, ticks, 186 to 16777215\n    Scan of the linear interpolator.\n",
+        "lift_history = \"shift_register\": name, \"shift_register\", \"ram\"\n",
+        "machine.max_torque_nm (required): number, N·m, ",
+        "feed_mm_per_min = 1200.0: number, mm/min, 0.001 to 10000000\n    Feed of the moves that set none.\n",
+        "input = none: path\n",
+    ] {
+        assert!(text.contains(lines), "{lines}\n{text}");
+    }
+    let rows = bench.json(&["keys", "machine"]);
+    let row = rows
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|row| row["key"] == "ck_ticks");
+    assert_eq!(
+        *row.expect("a row"),
+        json!({
+            "key": "ck_ticks",
+            "kind": "whole number",
+            "unit": "ticks",
+            "default": "40",
+            "range": "4 to 16777215",
+            "about": "CK of the lead-angle compensator.",
+        })
+    );
+    bench.refuse(
+        &["keys", "machin"],
+        "NAME: no job is called machin; allowed: machine is the nearest; one of pulse_interpolator, \
+         linear_interpolator, lead_angle, arc_generator, trajectory_controller, machine",
+    );
+}
+
+/// Keys of a scenario that moves to another circuit.
+#[test]
+fn keys_that_do_not_apply_to_another_circuit_are_reported_together() {
+    let bench = Bench::with("line.hpgl", super::support::LINE);
+    let text = "circuit = \"lead_angle\"\nck_ticks = 40\nrest_ms = 10\nlift_histori = \"ram\"\n\
+                [[step]]\ntarget = 1\nspeed_counts_per_s = 10\n";
+    bench.write("s.toml", text);
+    let done = bench.run(&["run", "s.toml", "--set", "circuit=machine"]);
+    let errors: Vec<_> = done
+        .stderr
+        .lines()
+        .filter(|line| line.starts_with("error: "))
+        .collect();
+    assert_eq!(
+        (done.code, errors),
+        (
+            2,
+            vec![
+                "error: s.toml:3: rest_ms: is a key of lead_angle, not of machine; allowed: `motion-rtl keys machine` lists all",
+                "error: s.toml:4: lift_histori: unknown key; allowed: `lift_history` is the nearest; `motion-rtl keys machine` lists all",
+                "error: s.toml:5: [[step]]: is a key of lead_angle, not of machine; allowed: `steps_per_mm` is the nearest; `motion-rtl keys machine` lists all",
+            ]
+        )
+    );
+}
