@@ -19,10 +19,10 @@ use crate::settings::{Key, choices, defaults};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// A scenario with no key but the one that has no default: for an input given by itself.
+/// Scenario for an input given by itself: only the key that has no default.
 const BARE: &str = "circuit = \"pulse_interpolator\"\n";
 
-/// The same for a position log given by itself: two targets, and a lead to be judged.
+/// Scenario for a position log given by itself: two targets, and a lead to be judged.
 const BARE_LOG: &str = "circuit = \"lead_angle\"\n\
      [[step]]\ntarget = 1000\nspeed_counts_per_s = 1000\nlead_ms = 10\n\
      [[step]]\ntarget = 0\nspeed_counts_per_s = 1000\nlead_ms = 10\n";
@@ -211,7 +211,7 @@ impl Runnable {
         }
     }
 
-    /// Whether its input is of this kind.
+    /// Returns true if its input can be of this kind.
     #[must_use]
     pub fn takes(self, kind: Kind) -> bool {
         match kind {
@@ -221,7 +221,7 @@ impl Runnable {
         }
     }
 
-    /// What its input may be, for faults.
+    /// Returns the allowed kinds of input, for faults.
     #[must_use]
     pub fn inputs(self) -> &'static str {
         match self {

@@ -33,12 +33,12 @@ pub const COUNTS_PER_MM_RANGE: RangeInclusive<f64> = 1e-6..=1e9;
 /// Counts that an axis that is in position may be off by.
 pub const IN_POSITION_RANGE: RangeInclusive<u32> = 1..=1_000_000;
 
-/// Times are taken for whole numbers of ticks or samples within this part: decimal fractions are
+/// Relative error within which a time is a whole number of ticks or samples: decimal fractions are
 /// not exact in binary.
 const WHOLE: f64 = 1e-9;
 
-/// A number for people, without the rounding of floating point in its last digits; of 12 digits,
-/// or as it is from 10^9 on.
+/// Rounds a number for display to 12 digits, which hides floating-point rounding; a number of 10^9
+/// or more is unchanged.
 #[must_use]
 pub fn tidy(value: f64) -> f64 {
     match value.abs() < 1e9 {
@@ -47,7 +47,7 @@ pub fn tidy(value: f64) -> f64 {
     }
 }
 
-/// Where a setting stands that is not by itself.
+/// Place of a setting that is part of a list or a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
     /// In a list: the element for the axis of this name.
@@ -63,11 +63,11 @@ pub enum Place {
 pub struct SettingError {
     /// Name of the setting, as in scenarios.
     pub field: &'static str,
-    /// Where it stands; none where it is by itself.
+    /// Place of the setting; `None` if it stands alone.
     pub place: Option<Place>,
-    /// What is wrong with it.
+    /// The problem.
     pub problem: String,
-    /// What would be right.
+    /// Allowed values.
     pub allowed: String,
 }
 
@@ -91,7 +91,7 @@ impl SettingError {
         Self::new(field, format!("is {value}"), allowed)
     }
 
-    /// The same at a place.
+    /// Returns the error with a place.
     #[must_use]
     pub fn at(self, place: Place) -> Self {
         SettingError {
@@ -121,13 +121,13 @@ impl Display for SettingError {
     }
 }
 
-/// Why a job cannot be played.
+/// Reasons why a job cannot be played.
 #[derive(thiserror::Error)]
 pub enum JobError {
     /// A setting that a circuit or a plant does not take.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// What an observer objects to.
+    /// An error of an observer.
     #[error(transparent)]
     Run(#[from] RunError),
     /// The circuit cannot be run.
@@ -192,9 +192,9 @@ pub(crate) fn whole(value: f64) -> Option<u64> {
 pub struct WholeTime {
     /// The setting.
     pub field: &'static str,
-    /// What it says.
+    /// The setting in milliseconds.
     pub wanted_ms: f64,
-    /// The period.
+    /// The period in milliseconds.
     pub period_ms: f64,
     /// Periods that are taken.
     pub periods: u64,
@@ -216,7 +216,7 @@ impl WholeTime {
         self.periods as f64 * self.period_ms
     }
 
-    /// Whether that is another than was wanted, by more than decimal fractions are rounded.
+    /// Returns true if the time differs from the setting by more than decimal rounding.
     #[must_use]
     pub fn is_rounded(&self) -> bool {
         (self.ms() - self.wanted_ms).abs() > WHOLE * self.ms()

@@ -1,4 +1,4 @@
-//! What stands below each `--help`: examples, and the shipped scenarios.
+//! Text below each `--help`: examples and the shipped scenarios.
 
 use super::shipped::SHIPPED;
 use std::fmt::Write as _;

@@ -56,7 +56,7 @@ use std::borrow::Cow;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// Why a command failed, and with which exit code.
+/// Failures of a command, each with its exit code.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
     /// Bad input: 2.
@@ -71,9 +71,9 @@ pub enum Failure {
     Argument {
         /// The argument.
         field: &'static str,
-        /// What is wrong.
+        /// The problem.
         problem: String,
-        /// What would be right.
+        /// Allowed values.
         allowed: String,
     },
     /// Keys and values that a circuit does not take: 2.
@@ -85,10 +85,10 @@ pub enum Failure {
     /// A run that a monitor ended, or whose waves cannot be written: 2 for the latter, else 1.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// What its arguments leave undecided: 2.
+    /// A comparison that its arguments leave undecided: 2.
     #[error("{0}")]
     Undecided(String),
-    /// What should hold does not: 1.
+    /// A check that failed: 1.
     #[error("{0}")]
     Check(String),
 }
@@ -114,7 +114,7 @@ impl From<JobError> for Failure {
 }
 
 impl Failure {
-    /// What is told on standard error.
+    /// Returns the message for standard error.
     pub fn report(&self) -> String {
         match self {
             Failure::Input(fault) => faults::report(fault),
@@ -164,11 +164,11 @@ fn warn(text: &str) {
     if voice::is_quiet() {
         return;
     }
-    // Where standard error is gone there is nobody to tell.
+    // Standard error may be closed.
     let _ = writeln!(io::stderr(), "warning: {}", plain(text));
 }
 
-/// What came of printing to standard output.
+/// Returns the result of printing to standard output.
 pub fn printed(done: io::Result<()>) -> Result<(), Failure> {
     if limits::is_closed() {
         warn(

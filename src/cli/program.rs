@@ -108,7 +108,7 @@ pub fn main() -> ExitCode {
 }
 
 fn failed(failure: &Failure) -> ExitCode {
-    // Where standard error is gone, the exit code is all there is to say.
+    // If standard error is closed, only the exit code remains.
     let _ = writeln!(stderr(), "{}", failure.report());
     errors::as_json(failure);
     failure.code()

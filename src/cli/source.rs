@@ -1,4 +1,4 @@
-//! What `run` and `table` begin with: a scenario and its input.
+//! Input of `run` and `table`: a scenario and its input file.
 
 use super::given::{Format, Given};
 use super::shipped::{self, SHIPPED, Shipped};
@@ -13,7 +13,7 @@ use motion_rtl::scenario::{Loaded, Runnable, Scenario};
 use motion_rtl::settings::{Place, SettingError, tidy};
 use std::path::{Path, PathBuf};
 
-/// What to run.
+/// Arguments that name the scenario and its input.
 #[derive(Debug, Clone, Default, Args)]
 pub struct Input {
     /// Scenario (.toml), HPGL drawing, G-code program or position log (.csv), or `-` for standard
@@ -26,15 +26,15 @@ pub struct Input {
     /// Overrides a key of the scenario.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub sets: Vec<String>,
-    /// Skips with a warning what of an HPGL drawing is not understood or incomplete, though it may
-    /// move the pen.
+    /// Skips, with a warning, HPGL commands that are unknown or incomplete, even if they may move
+    /// the pen.
     #[arg(long)]
     pub lenient: bool,
-    /// Refuses what of a G-code program says nothing about the path, instead of skipping it.
+    /// Refuses G-code words that say nothing about the path, instead of skipping them.
     #[arg(long)]
     pub strict: bool,
-    /// The most lines of a G-code program that are run, loops and calls counted each time; 10000000
-    /// without it.
+    /// Most lines of a G-code program to run, counted each time in loops and calls; 10000000 by
+    /// default.
     #[arg(long, value_name = "LINES")]
     pub most_lines: Option<u64>,
     /// Looks in a directory for the files of subroutines that a G-code program calls: NAME.ngc for
@@ -45,7 +45,7 @@ pub struct Input {
 }
 
 impl Input {
-    /// How a drawing or a part program is read.
+    /// Returns the options for reading a drawing or a part program.
     fn options(&self, loaded: &Loaded) -> Result<Options, Fault> {
         let zeros = loaded.scenario.run().program.zeros();
         let fourth = match &loaded.scenario {
@@ -65,7 +65,7 @@ impl Input {
 }
 
 impl Input {
-    /// Where the subroutines are: as the command line says, then as the scenario does.
+    /// Returns the directories of subroutines: those of the command line, then the scenario's.
     fn directories(&self, loaded: &Loaded) -> Result<Vec<PathBuf>, Fault> {
         let allowed = || "directories with subroutines".to_owned();
         let problem = |path: &Path| format!("{} is not a directory", path.display());
@@ -92,7 +92,7 @@ impl Input {
 pub struct Source {
     /// The scenario.
     pub loaded: Loaded,
-    /// What its files are called.
+    /// Stem of the names of its files.
     pub stem: String,
     /// True if what the circuit is compared with is prepared too.
     pub compares: bool,
@@ -100,7 +100,7 @@ pub struct Source {
     options: Options,
 }
 
-/// Where an input is.
+/// Location of an input.
 #[derive(Debug)]
 enum Origin {
     /// In a file.
@@ -254,7 +254,7 @@ fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {
             Format::Toml => {
                 let loaded = match given.is_standard() {
                     true => Loaded::parse(&given.name, given.text()?, &input.sets)?,
-                    // What it names is relative to it.
+                    // Paths in a scenario are relative to it.
                     false => Loaded::read(path, &input.sets)?,
                 };
                 let within = loaded.scenario.input().cloned();
@@ -316,7 +316,7 @@ fn meant(path: &Path, fault: Fault) -> Fault {
     }
 }
 
-/// What the planner objects to, with the file and line it stands in.
+/// Returns a planning error with its file and line.
 pub fn plan_fault(loaded: &Loaded, drawing: &Drawing, error: PlanError) -> Fault {
     match error {
         PlanError::Setting(error) => loaded.refuse(error),

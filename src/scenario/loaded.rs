@@ -10,7 +10,7 @@ use std::path::Path;
 use toml::de::{DeTable, Deserializer};
 use toml::{Spanned, Table, Value};
 
-/// What faults call the file of an override.
+/// File name of an override in faults.
 const SET: &str = "--set";
 
 /// The key that chooses the circuit.
@@ -21,7 +21,7 @@ const CIRCUIT: &str = "circuit";
 pub struct Loaded {
     /// The scenario.
     pub scenario: Scenario,
-    /// Its file; none where its keys are defaults and overrides.
+    /// Its file; `None` if its keys are only defaults and overrides.
     file: Option<String>,
     text: String,
     /// Keys that were overridden.
@@ -77,7 +77,7 @@ impl Loaded {
     /// Reads a scenario from text that is called `file` in faults.
     ///
     /// # Errors
-    /// As [`Loaded::read`].
+    /// An error of [`Loaded::read`].
     pub fn parse(file: &str, text: &str, sets: &[String]) -> Result<Self, Fault> {
         let loaded = Self::build(file, text, sets)?;
         Ok(Loaded {
@@ -144,7 +144,8 @@ impl Loaded {
             if circuit.is_some() && pairs.peek().is_some() {
                 continue;
             }
-            // As text once more: reading a table from a tree as well is a second copy of all readers.
+            // The table is read from text again: reading it from a tree needs a second copy of all
+            // readers.
             let text = table.to_string();
             let table = DeTable::parse(&text).map_err(|error| errors::fault(SET, &text, &error))?;
             read = Some(scenario(&table).map_err(|error| set_fault(key, &error))?);
@@ -158,12 +159,12 @@ impl Loaded {
         })
     }
 
-    /// Whether it was made for an input given by itself.
+    /// True if the scenario was made for an input given by itself.
     pub fn is_bare(&self) -> bool {
         self.file.is_none()
     }
 
-    /// Whether an override gave this key.
+    /// Returns true if an override gave this key.
     pub fn overrides(&self, key: &str) -> bool {
         self.overridden.iter().any(|other| other == key)
     }
@@ -266,7 +267,7 @@ impl Loaded {
     }
 }
 
-/// The circuit that overrides choose; none where they choose none that there is.
+/// Returns the circuit that overrides choose; `None` if they choose none.
 fn chosen(sets: &[String]) -> Result<Option<Runnable>, Fault> {
     let pairs = sets.iter().map(|set| key_value(set));
     let pairs = pairs.collect::<Result<Vec<_>, _>>()?;
@@ -275,16 +276,16 @@ fn chosen(sets: &[String]) -> Result<Option<Runnable>, Fault> {
     Ok(circuit.and_then(|(_, circuit)| circuit.try_into().ok()))
 }
 
-/// What is allowed where a key is missing.
+/// Allowed value of a missing key.
 const NO_DEFAULT: &str = "a value for it: it has no default";
 
-/// Of a scenario what decides how the rest is read.
+/// Part of a scenario that decides how the rest is read.
 #[derive(Deserialize)]
 struct Head {
     circuit: Runnable,
 }
 
-/// What is wrong, and where in the scenario.
+/// An error and its place in the scenario.
 type Located = serde_path_to_error::Error<toml::de::Error>;
 
 /// A scenario with the keys of its circuit.
@@ -325,7 +326,7 @@ fn insert(table: &mut Table, key: &str, value: Value) -> Result<(), Fault> {
     Err(Fault::new(SET, 0, key, problem, allowed))
 }
 
-/// What an override makes wrong: of the key, or of one within its value.
+/// Returns the fault of an override: of its key, or of a key within its value.
 fn set_fault(key: &str, error: &Located) -> Fault {
     let mut field = String::new();
     for segment in error.path() {

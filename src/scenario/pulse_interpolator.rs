@@ -70,7 +70,7 @@ impl Settings {
         }
     }
 
-    /// Returns the motors on so many axes, if there are some.
+    /// Returns the motors on `axes` axes, if there are any.
     ///
     /// # Errors
     /// A figure of theirs is out of range.

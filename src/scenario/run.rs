@@ -1,4 +1,4 @@
-//! What all circuits have in a scenario, beside their settings.
+//! Keys that the scenarios of all circuits share.
 
 use super::{Program, Runnable};
 use crate::settings::{Key, Table, read_keys, settings, unknown};
@@ -34,7 +34,7 @@ pub trait Settings: Table {
 /// A scenario of a circuit: the keys that all have, and its own.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Keys<S> {
-    /// What all circuits have.
+    /// Keys that all circuits share.
     pub run: Run,
     /// Settings of the circuit.
     pub settings: S,

@@ -7,7 +7,7 @@ pub(super) struct Renamed {
     pub(super) name: &'static str,
     /// Its unit.
     pub(super) unit: &'static str,
-    /// What to multiply the number with.
+    /// Factor for the number.
     pub(super) factor: u32,
 }
 

@@ -18,7 +18,7 @@ pub trait Table: Sized {
     /// Its keys: its own, then those of each group.
     const KEYS: &'static [&'static [Key]];
 
-    /// What it is without a single key; a required key has any value.
+    /// Returns the settings without any key given; a required key has an arbitrary value.
     fn initial() -> Self;
 
     /// Reads the value of one of its keys.
@@ -277,7 +277,7 @@ pub(crate) fn unknown<'a>(
 /// Longest key, in bytes, for which the nearest name is looked for.
 const LONGEST_KEY: usize = 100;
 
-/// What stands between problem and what is allowed in an error that a reader of keys makes.
+/// Separator of problem and allowed values in an error of a key reader.
 pub(crate) const ALLOWED: &str = "; allowed: ";
 
 /// Reads keys and has `set` read their values. `unknown` tells what is wrong with another key.
@@ -381,7 +381,7 @@ mod tests {
             ..Every::default()
         };
         assert_eq!((least, Every::default().count), (expected, 6));
-        // What is written is read again.
+        // The written text reads back as the same settings.
         let text = toml::to_string(&every).unwrap();
         assert_eq!(read(&text), Ok(every), "{text}");
     }

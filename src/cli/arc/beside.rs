@@ -19,16 +19,16 @@ use motion_rtl::path::record::Record;
 use motion_rtl::path::vector::distance;
 use serde::Serialize;
 
-/// What the conventional circuit made of the arcs; nothing where there are none, or one is not run.
+/// Arcs by the conventional circuit; empty if there are none or one of them is not run.
 #[derive(Debug, Default)]
 pub struct Beside {
     /// Each arc from rest to rest.
     pub arcs: Vec<Arc>,
     /// Their samples, each with its start.
     pub samples: u64,
-    /// What came out.
+    /// Output of the circuit.
     pub played: Played,
-    /// The first piece whose arc is not run, since it does not fit.
+    /// First piece whose arc is not run because it does not fit.
     pub left: Option<usize>,
     /// Radius error in um over the way in mm, at the start of the arc that the picture shows.
     pub start: Vec<(f64, f64)>,
@@ -87,7 +87,7 @@ pub struct Arc {
     pub piece: usize,
     /// Largest distance of a command from its exact point, in mm.
     pub error: f64,
-    /// What it may not exceed.
+    /// Bound of `error`.
     pub bound: f64,
     /// Largest radius error of a command, in mm.
     pub radius_error: f64,
@@ -198,7 +198,7 @@ impl Beside {
         })
     }
 
-    /// What is wrong with it; empty where nothing is.
+    /// Returns the complaints about the arcs; empty if there are none.
     pub fn complaints(&self, how: &str) -> impl Iterator<Item = String> {
         let (sampled, wanted) = (self.played.samples, self.samples);
         let short = (sampled != wanted)
@@ -229,27 +229,26 @@ impl Beside {
 /// A circuit.
 #[derive(Debug, Serialize)]
 pub struct Row {
-    /// Its name.
     pub circuit: &'static str,
     /// Adders, subtractors and comparators.
     pub adders: u64,
-    /// Bits of them.
+    /// Bits of the adders, subtractors and comparators.
     pub adder_bits: u64,
     /// Bits of registers.
     pub flip_flops: u64,
     /// Ticks from a sampling time to the next point: on a line or blend.
     pub ticks_straight: Option<u64>,
-    /// On an arc.
+    /// Ticks from a sampling time to the next point on an arc.
     pub ticks_arc: Option<u64>,
-    /// To the first point of the next segment.
+    /// Ticks from a sampling time to the first point of the next segment.
     pub ticks_change: Option<u64>,
     /// Most of these: the shortest sampling time.
     pub ticks_most: u64,
-    /// No point was late.
+    /// True if no point was late.
     pub in_time: bool,
     /// Largest distance of a command from its exact point.
     pub error_max_um: f64,
-    /// What it may not exceed.
+    /// Bound of `error_max_um`.
     pub error_bound_um: f64,
 }
 
@@ -274,8 +273,8 @@ impl Row {
     }
 }
 
-/// The circuit, and where it is compared the conventional one; nothing where the path has no arc, or
-/// one that is not compared.
+/// Returns the circuit and, in a comparison, the conventional one; empty if the path has no arc or
+/// an arc is not compared.
 pub fn rows(job: &Job, played: &Played, figures: &Figures) -> Result<Vec<Row>, RunError> {
     let beside = &figures.beside;
     let compared = job.loaded.scenario.beside();

@@ -1,4 +1,4 @@
-//! What a run of the arc generator begins with: a path as segments and as records.
+//! Input of a run of the arc generator: a path as segments and as records.
 
 use crate::cli::pieces::{SpeedKeys, fault, pieces};
 use crate::cli::source::Source;
@@ -21,9 +21,9 @@ use motion_rtl::scenario::Loaded;
 /// A path ready to be run.
 #[derive(Debug)]
 pub struct Job {
-    /// What its files are called.
+    /// Stem of the names of its files.
     pub stem: String,
-    /// The input; none where the scenario has the path.
+    /// The input; `None` if the scenario has the path.
     pub drawing: Option<Drawing>,
     /// Its settings.
     pub settings: Settings,
@@ -31,10 +31,10 @@ pub struct Job {
     pub sample_ticks: u32,
     /// The segments.
     pub prepared: Prepared,
-    /// The same as words.
+    /// The segments as records.
     pub records: Vec<Record>,
-    /// The records by differences that those by products are compared with, where their words hold
-    /// the path.
+    /// Records by differences, for comparison with those by products; `None` if their words do not
+    /// hold the path.
     pub differences: Option<Vec<Record>>,
     /// The arm whose hand the commands are of, and what its joints do.
     pub arm: Option<(Arm, Followed)>,

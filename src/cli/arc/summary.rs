@@ -1,4 +1,4 @@
-//! What a run came to.
+//! Summary of a run.
 
 use super::Job;
 use super::arm::{self, ArmRows};
@@ -20,7 +20,7 @@ use serde::Serialize;
 /// The summary of a run.
 #[derive(Debug, Serialize)]
 pub struct Summary {
-    /// What it has as all others.
+    /// Fields that all summaries share.
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Settings of the run.
@@ -33,7 +33,7 @@ pub struct Summary {
     pub blend_samples: u64,
     /// Samples, the start of the path with them.
     pub samples: u64,
-    /// Whether every sample is where it should be, within its bound, and the last is the path's end.
+    /// True if every sample is within its bound and the last one is the path's end.
     pub exact: bool,
     /// The last command, in counts.
     pub end_position: [i64; 3],
@@ -41,13 +41,10 @@ pub struct Summary {
     pub end_demanded: [f64; 3],
     /// Largest distance of a command from its exact point.
     pub error_max_um: f64,
-    /// What it may not exceed.
+    /// Bound of `error_max_um`.
     pub error_bound_um: f64,
-    /// Every arc.
     pub arcs: Vec<ArcRow>,
-    /// Every line.
     pub lines: Vec<LineRow>,
-    /// Every blend.
     pub blends: Vec<BlendRow>,
     /// Bits of the path's records.
     pub record_bits: u64,
@@ -56,9 +53,9 @@ pub struct Summary {
     /// Blends by products beside those by differences.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub products: Option<Products>,
-    /// What a sample costs.
+    /// Operations per sample.
     pub operations: Vec<operations::Row>,
-    /// The circuit, and where it is compared that of the conventional method.
+    /// The circuit and, in a comparison, that of the conventional method.
     pub circuits: Vec<beside::Row>,
     /// Changes of speed, and what they make of the mechanism, beside those of the conventional
     /// method where that is compared.
@@ -118,7 +115,7 @@ impl Summary {
     }
 }
 
-/// What was skipped or assumed on the way to the segments.
+/// Returns the warnings of the drawing and of its conversion to segments.
 fn warnings(job: &Job, figures: &Figures) -> Vec<String> {
     let own = job.drawing.iter().flat_map(|drawing| &drawing.warnings);
     let both = [(&figures.beside, ""), (&figures.even, " without ramps")];

@@ -1,4 +1,4 @@
-//! Whether a run did what its path says.
+//! Verdict on a run: its commands against the path.
 
 use super::Job;
 use super::figures::{ArcFigures, Figures};
@@ -7,7 +7,7 @@ use motion_rtl::circuits::arc_generator::{Blend, Widths};
 use motion_rtl::jobs::arc_generator::bounds::product_error;
 use motion_rtl::jobs::arc_generator::job::Played;
 
-/// What is wrong with a run; empty where nothing is.
+/// Returns the complaints about a run; empty if there are none.
 pub fn complaints(job: &Job, played: &Played, figures: &Figures, arcs: &[ArcRow]) -> Vec<String> {
     let mut all = Vec::new();
     if played.late {
@@ -41,7 +41,7 @@ pub fn complaints(job: &Job, played: &Played, figures: &Figures, arcs: &[ArcRow]
     all
 }
 
-/// Whether the last command is the end of the path, rounded: twice, to guard units and to counts.
+/// Checks that the last command is the end of the path, rounded to guard units and then to counts.
 fn end(job: &Job, played: &Played) -> Option<String> {
     let (last, piece) = (played.last?, job.prepared.pieces.last()?);
     let wanted = piece.to.map(|mm| mm * job.settings.counts_per_mm);
@@ -53,7 +53,7 @@ fn end(job: &Job, played: &Played) -> Option<String> {
     (!exact).then(|| format!("ends at {counts:?} counts, the path at {wanted:.3?}"))
 }
 
-/// How far the samples of each segment may be off, in mm.
+/// Returns the error bound of each segment's samples in mm.
 pub fn bounds(job: &Job, arcs: &[ArcFigures]) -> Vec<f64> {
     let mut bounds = vec![straight(job); job.prepared.segments.len()];
     for arc in arcs {
@@ -62,9 +62,8 @@ pub fn bounds(job: &Job, arcs: &[ArcFigures]) -> Vec<f64> {
     bounds
 }
 
-/// The same on lines and blends, whose points are exact but for the rounding, √3/2 counts, and the
-/// same of a guard unit for what goes in and for what comes out; and for products where they are made
-/// by them.
+/// Returns the error bound on lines and blends in mm. Their points are exact except for rounding:
+/// √3/2 counts, and √3/2 guard units each for input and output. Blends by products add their error.
 fn straight(job: &Job) -> f64 {
     let widths = Widths::FULL;
     let unit = (-(widths.guard() as f64)).exp2();

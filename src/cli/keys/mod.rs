@@ -9,10 +9,11 @@ use motion_rtl::scenario::Runnable;
 use motion_rtl::settings::{Row, rows};
 use std::fmt::Write as _;
 
-/// Which keys, and how.
+/// Arguments of `keys`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The job, as the key `circuit` of scenarios names it; without it the names of all.
+    /// Job, named as by the key `circuit` of scenarios; by default the names of all jobs are
+    /// printed.
     name: Option<String>,
     /// Prints the keys as JSON.
     #[arg(long)]
@@ -22,7 +23,6 @@ pub struct Arguments {
     json_schema: bool,
 }
 
-/// Prints keys.
 pub fn keys(arguments: &Arguments) -> Result<(), Failure> {
     let names = || Runnable::ALL.map(Runnable::name).into_iter();
     let Some(name) = &arguments.name else {
@@ -49,7 +49,7 @@ pub fn keys(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// The keys for people: two lines each, with an empty line between them.
+/// Formats the keys as text: two lines each, with an empty line between them.
 fn text(rows: &[Row]) -> String {
     let mut text = String::new();
     for row in rows {

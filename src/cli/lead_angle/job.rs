@@ -1,4 +1,4 @@
-//! What a run of the lead-angle compensator begins with: settings, and perhaps a position log.
+//! Input of a run of the lead-angle compensator: settings and an optional position log.
 
 use crate::cli::Failure;
 use crate::cli::source::Source;
@@ -8,13 +8,14 @@ use motion_rtl::jobs::lead_angle::replay::{settings_for, validate};
 use motion_rtl::jobs::lead_angle::settings::{Detector, Settings, TARGET_RANGE_COUNTS};
 use motion_rtl::scenario::Loaded;
 
-/// How far a log may go from its first count: no way to a target is half of what wraps.
+/// Largest distance of a log from its first count: every way to a target stays below half the
+/// counter's range.
 const FARTHEST_COUNTS: u64 = TARGET_RANGE_COUNTS.end().unsigned_abs();
 
 /// A scenario ready to be run.
 #[derive(Debug)]
 pub struct Job {
-    /// What its files are called.
+    /// Stem of the names of its files.
     pub stem: String,
     /// Its settings.
     pub settings: Settings,

@@ -1,4 +1,4 @@
-//! What a run came to.
+//! Summary of a run.
 
 use super::Job;
 use super::systems::{EXACT, LEARNING, SECOND_ORDER, System, learner};
@@ -14,7 +14,7 @@ const SETTLED_WITHIN: usize = 6;
 /// The summary of a run.
 #[derive(Debug, Serialize)]
 pub struct Summary {
-    /// What it has as all others.
+    /// Fields that all summaries share.
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Settings of the run.
@@ -31,12 +31,11 @@ pub struct Summary {
     pub positionings: Vec<Row>,
 }
 
-/// What one system made of all positionings.
+/// Figures of all positionings on one system.
 #[derive(Debug, Serialize)]
 pub struct SystemSummary {
-    /// Its name.
     pub name: &'static str,
-    /// It is what the scenario asks for.
+    /// True if the scenario selects this system.
     pub own: bool,
     /// Largest amount of a stop error, in counts.
     pub error_max_counts: u64,
@@ -60,7 +59,6 @@ pub struct Phase {
     pub to: usize,
     /// The load has changed.
     pub loaded: bool,
-    /// Its steps.
     pub steps: Vec<StepSummary>,
 }
 
@@ -71,15 +69,14 @@ pub struct StepSummary {
     pub step: usize,
     /// Sx in counts, from where targets count from.
     pub target: i64,
-    /// Its speed.
     pub speed_counts_per_s: u32,
-    /// How many positionings of it the phase has.
+    /// Count of its positionings in the phase.
     pub positionings: usize,
     /// Stop error of its last positioning in the phase, for each system, in counts.
     pub last_error_counts: Vec<i64>,
-    /// Whether the time of that positioning was over before the body stood still, for each system.
+    /// True if that positioning timed out before the body stood still, for each system.
     pub last_timed_out: Vec<bool>,
-    /// Of `lead_times_of`.
+    /// Lead of the system `lead_times_of`.
     #[serde(flatten)]
     pub lead: Option<StepLead>,
 }
@@ -87,7 +84,7 @@ pub struct StepSummary {
 /// Result of a step in a phase, by a lead that is a time.
 #[derive(Debug, Serialize)]
 pub struct StepLead {
-    /// That of the last positioning.
+    /// Lead time of the last positioning.
     #[serde(flatten)]
     pub last: Lead,
     /// After how many positionings of the phase the stops stay within a code's travel; `null` where
@@ -101,13 +98,13 @@ pub struct StepLead {
 /// The lead time of a positioning.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Lead {
-    /// In milliseconds.
+    /// Lead time in milliseconds.
     pub lead_ms: f64,
-    /// Distance that one code is worth there, in counts.
+    /// Travel of one code at that speed, in counts.
     pub code_travel_counts: f64,
 }
 
-/// After how many positionings learning stays within a code's travel; `null` where it never does.
+/// Positionings until learning stays within a code's travel; `null` if it never does.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct ByFunction {
     /// To first order.
@@ -118,7 +115,6 @@ pub struct ByFunction {
     pub exact: Option<usize>,
 }
 
-/// One positioning.
 #[derive(Debug, Serialize)]
 pub struct Row {
     /// Its number, from 0.
@@ -129,10 +125,10 @@ pub struct Row {
     pub loaded: bool,
     /// Stop error of each system, in counts.
     pub error_counts: Vec<i64>,
-    /// What the detector of each system was off by then, in counts.
+    /// Error of each system's detector at that time, in counts.
     pub position_error_counts: Vec<f64>,
-    /// Whether its time was over before the body stood still, for each system: the error is of where
-    /// it was then.
+    /// True if it timed out before the body stood still, for each system; its error is then of the
+    /// position at the time-out.
     pub timed_out: Vec<bool>,
     /// Speed at which the body still turned when it was complete, for each system, in counts a
     /// second.
@@ -148,13 +144,13 @@ pub fn code_travel(settings: &Settings, positioning: &Positioning) -> f64 {
     positioning.speed_counts_per_s.abs() * settings.ck_ms() / 1e3 * cks
 }
 
-/// Whether it stopped within a code's travel; where its time was over it has not stopped.
+/// Returns true if a positioning stopped within a code's travel; false after a time-out.
 fn settled(settings: &Settings, positioning: &Positioning) -> bool {
     !positioning.timed_out
         && positioning.error.unsigned_abs() as f64 <= code_travel(settings, positioning) + 1e-6
 }
 
-/// What is to be small.
+/// Returns the name of the error that an action keeps small.
 pub fn error_name(action: Action) -> &'static str {
     match action {
         Action::Stop => "stop error",
@@ -309,7 +305,7 @@ impl Shown<'_> {
         let numbers: Vec<usize> = phase.filter(|number| all[*number].step == step).collect();
         let last = *numbers.last()?;
         let after = |run| settled_after(settings, run, &numbers);
-        // Where nothing is compared, one of them is missing.
+        // One of them is missing without a comparison.
         let functions = [LEARNING, SECOND_ORDER, EXACT].map(|name| of(played, name));
         let by_function = match functions {
             [Some(first), Some(second), Some(exact)] => Some(ByFunction {
@@ -343,7 +339,7 @@ fn settled_after(settings: &Settings, run: &Played, numbers: &[usize]) -> Option
     Some(after).filter(|after| *after < numbers.len())
 }
 
-/// What keeps a run from being what it was to be.
+/// Returns the faults of a run.
 fn complaints(settings: &Settings, run: &Played) -> Vec<String> {
     let mut all = Vec::new();
     let done = run.positionings.len();
@@ -360,7 +356,7 @@ fn complaints(settings: &Settings, run: &Played) -> Vec<String> {
     all
 }
 
-/// What is worth knowing of a run that did what it was to do.
+/// Returns the warnings of a successful run.
 fn warnings(summary: &Summary) -> Vec<String> {
     let mut all = Vec::new();
     for system in summary.systems.iter().filter(|system| system.own) {

@@ -1,10 +1,15 @@
-//! What a run is compared with: the same steps without a lead, with switches that stand a distance
-//! before their targets, by speed with one parameter, with one for each step that is tuned to the
-//! nominal load, and with a memory of the leads that this load asks for, with a fixed lead, with a
-//! lead that is learned, learned to second order, learned by the exact relation, and learned with
-//! the text's sign; where the scenario has positionings complete by a fixed time, learned at
-//! standstills too; where it has another detector, its own system with an incremental one; where it
-//! has another form of the lead, its own system in the form of the figures.
+//! Systems that a run is compared with, on the same steps:
+//!
+//! - without a lead, and with switches at a distance before their targets;
+//! - with a lead by speed: one parameter, one parameter per step tuned to the nominal load, and a
+//!   memory of the leads that this load needs;
+//! - with a fixed lead;
+//! - with a learned lead: first order, second order, by the exact relation, and with the text's
+//!   sign.
+//!
+//! A scenario whose positionings are complete after a fixed time is also learned at standstills. A
+//! scenario with another detector is also run with an incremental one, and one with another form of
+//! the lead in the form of the figures.
 
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::jobs::lead_angle::settings::{
@@ -45,7 +50,7 @@ pub struct System {
     pub name: &'static str,
     /// Its settings.
     pub settings: Settings,
-    /// It is what the scenario asks for.
+    /// True if the scenario selects this system.
     pub own: bool,
 }
 
@@ -170,8 +175,8 @@ fn first_stops<'a>(settings: &Settings, run: &'a Played) -> Vec<Option<&'a Posit
     (0..settings.steps.len()).map(step).collect()
 }
 
-/// How far before its target the switch of each step stands: the scenario's distance, or else what
-/// the step went too far without a lead, as far as there is room for it.
+/// Returns each switch's distance before its target: the scenario's distance, or the overrun of the
+/// step without a lead, limited to the room before the target.
 fn switches(settings: &Settings, without_lead: &Played) -> Vec<u32> {
     let steps = first_stops(settings, without_lead).into_iter().enumerate();
     let distance = |(step, first): (usize, Option<&Positioning>)| {

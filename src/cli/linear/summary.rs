@@ -1,4 +1,4 @@
-//! What a run came to.
+//! Summary of a run.
 
 use super::Job;
 use super::rows::{Figures, Row, rows};
@@ -13,53 +13,50 @@ use serde::Serialize;
 /// The summary of a run.
 #[derive(Debug, Serialize)]
 pub struct Summary {
-    /// What it has as all others.
+    /// Fields that all summaries share.
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Settings of the run.
     pub settings: Settings,
     /// Scans of the run.
     pub scans: usize,
-    /// Whether every cycle ended on its target, stayed as near to its line as the division allows,
-    /// and no scan, count or target was lost.
+    /// True if every cycle ended on its target and stayed as near to its line as the division
+    /// allows, and no scan, count or target was lost.
     pub exact: bool,
     /// Points of the drawing that have the counts of the point before.
     pub dropped_points: usize,
-    /// The linear interpolator.
+    /// Figures of the linear interpolator.
     pub interpolator: SystemSummary,
-    /// Which axis leads in the run with another one.
+    /// Master axis of the run with another master.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub other_master: Option<&'static str>,
-    /// That run; none where the drawing cannot be had so.
+    /// Figures of that run; omitted if the drawing cannot be run with that master.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolator_other_master: Option<SystemSummary>,
     /// The conventional system of Fig. 3, both axes with the same settings.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub conventional: Option<SystemSummary>,
-    /// The same, speeds in proportion to the distances, times inverse to them.
+    /// The conventional system, speeds in proportion to the distances, times inverse to them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub conventional_in_proportion: Option<SystemSummary>,
-    /// Every cycle.
     pub segments: Vec<Row>,
 }
 
-/// What one system made of all cycles.
+/// Figures of all cycles on one system.
 #[derive(Debug, Serialize)]
 pub struct SystemSummary {
-    /// Ticks.
     pub ticks: u64,
-    /// The same in seconds.
+    /// Duration in seconds.
     pub seconds: f64,
-    /// Scans.
     pub scans: usize,
     /// The last command, in counts.
     pub end_position: [i64; 2],
     /// Largest deviation of a command from its line.
     pub deviation_max_lsb: f64,
-    /// Largest change of the commanded speed from scan to scan, of the axis that leads, or has the
-    /// longer way where none does.
+    /// Largest change of the commanded speed from scan to scan, on the master axis or, without one,
+    /// on the axis with the longer way.
     pub master_acceleration_max_counts_per_scan2: u64,
-    /// Of the other axis.
+    /// Largest such change on the other axis.
     pub slave_acceleration_max_counts_per_scan2: u64,
     /// Largest contour error of the moves that draw.
     pub contour_error_max_um: f64,
@@ -144,7 +141,8 @@ impl Summary {
     }
 }
 
-/// What was skipped, assumed or rounded on the way to the cycles, and what slowed them down.
+/// Returns the warnings: anything skipped, assumed or rounded to make the cycles, and what slowed
+/// them down.
 fn warnings(job: &Job, played: &Played) -> Vec<String> {
     let file = &job.drawing.file;
     let own = job.drawing.warnings.iter();

@@ -76,7 +76,7 @@ impl Summary {
         text.push('\n');
         let mut rows: Vec<&Row> = self.segments.iter().collect();
         if !all {
-            // What is drawn matters more.
+            // Drawn moves matter more.
             rows.sort_by(|a, b| {
                 let error = |row: &Row| row.interpolator.contour_error_um;
                 a.rapid.cmp(&b.rapid).then(error(b).total_cmp(&error(a)))

@@ -1,4 +1,4 @@
-//! What a run of the machine begins with: a job for all circuits, prepared.
+//! Input of a run of the machine: a prepared job for all circuits.
 
 use crate::cli::pieces::{SpeedKeys, fault};
 use crate::cli::pulse::table_fault;
@@ -16,13 +16,13 @@ use motion_rtl::settings::{Place, SettingError};
 /// An input ready to be run.
 #[derive(Debug)]
 pub struct Job {
-    /// What its files are called.
+    /// Stem of the names of its files.
     pub stem: String,
     /// The input.
     pub drawing: Drawing,
     /// Its settings.
     pub settings: Settings,
-    /// What every circuit is given.
+    /// Program of every circuit.
     pub program: Program,
     /// The scenario it came from.
     pub loaded: Loaded,
@@ -51,7 +51,7 @@ impl Job {
     }
 }
 
-/// What cannot be run, with the file and line it stands in.
+/// Returns a program error with its file and line.
 fn refuse(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: ProgramError) -> Fault {
     let motion = &settings.motion;
     let keys = SpeedKeys {

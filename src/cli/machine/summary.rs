@@ -1,4 +1,4 @@
-//! What the run came to.
+//! Summary of the run.
 
 use super::Job;
 use super::rows::{self, EndRow, LiftRow, PieceRow};
@@ -13,22 +13,22 @@ use serde::Serialize;
 /// The summary of a run.
 #[derive(Debug, Serialize)]
 pub struct Summary {
-    /// What it has as all others.
+    /// Fields that all summaries share.
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Settings of the run.
     pub settings: Settings,
-    /// Whether both machines came to rest at the job's end, on the nearest step and count.
+    /// True if both machines came to rest at the job's end, on the nearest step and count.
     pub exact: bool,
     /// Pulses of the steppers, either way.
     pub pulses: [u64; 2],
     /// Unit times whose steps no half-period gives.
     pub unattainable_units: usize,
-    /// Where the time went.
+    /// Duration of the run by machine and activity.
     pub times: TimesRow,
     /// The job's end.
     pub end_mm: [f64; 2],
-    /// Where everything ended.
+    /// End positions.
     pub ends: [EndRow; 3],
     /// Counts that the correction left the motors beside the job's end.
     pub left_by_correction: [i64; 2],
@@ -40,22 +40,22 @@ pub struct Summary {
     pub lifts: Vec<LiftRow>,
 }
 
-/// Where the time went, in seconds.
+/// Duration of the run by machine and activity, in seconds.
 #[derive(Debug, Serialize)]
 pub struct TimesRow {
-    /// The steppers, which run through.
+    /// Time of the steppers, which do not stop between pieces.
     pub steppers_s: f64,
-    /// The run ended, by the servos' fault, before the steppers could.
+    /// True if a fault of the servos ended the run before the steppers finished.
     pub steppers_cut_off: bool,
-    /// The servos came to rest at the end of each move, and of the job.
+    /// True if the servos came to rest at the end of each move and of the job.
     pub servos_settled: bool,
-    /// The servos, which stop at the end of each piece.
+    /// Time of the servos, which stop at the end of each piece.
     pub servos_s: f64,
-    /// Of these on the way.
+    /// Part of the servos' time in motion.
     pub moving_s: f64,
-    /// Coming to rest in position.
+    /// Part of the servos' time until they rest in position.
     pub settling_s: f64,
-    /// Waiting for the pen and for records.
+    /// Part of the servos' time waiting for the pen and for records.
     pub waiting_s: f64,
 }
 
@@ -101,7 +101,7 @@ impl Summary {
     }
 }
 
-/// What was skipped, assumed or rounded.
+/// Returns the warnings: anything skipped, assumed or rounded.
 fn warnings(job: &Job) -> Vec<String> {
     let [lines, arcs] = job.settings.ramps();
     let ramps = [

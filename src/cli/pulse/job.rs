@@ -15,11 +15,11 @@ use motion_rtl::scenario::{Loaded, Scenario};
 pub struct Job {
     /// The scenario it came from.
     pub loaded: Loaded,
-    /// What its files are called.
+    /// Stem of the names of its files.
     pub stem: String,
     /// The input.
     pub drawing: Drawing,
-    /// What RST clears.
+    /// Reset variant: the state that RST clears.
     pub variant: VariantName,
     /// Moves of the conventional device.
     pub conventional_moves: ConventionalMoves,
@@ -29,9 +29,9 @@ pub struct Job {
     pub settings: Settings,
     /// The pattern memory's contents.
     pub table: Table,
-    /// What came of the compilation.
+    /// Report of the compilation.
     pub report: Report,
-    /// The motors on its axes, if there are some.
+    /// Motors on its axes, if any.
     pub motors: Option<Motors>,
 }
 
@@ -115,7 +115,7 @@ impl Job {
     }
 }
 
-/// What the compiler objects to, with the file and line it stands in.
+/// Returns a compile error with its file and line.
 pub fn table_fault(
     loaded: &Loaded,
     drawing: &Drawing,

@@ -1,4 +1,4 @@
-//! What a run or a compilation came to.
+//! Summary of a run or a compilation.
 
 use super::Job;
 use super::beside::Row;
@@ -14,37 +14,34 @@ use serde::Serialize;
 /// The summary of a run.
 #[derive(Debug, Serialize)]
 pub struct Summary {
-    /// What it has as all others.
+    /// Fields that all summaries share.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// What RST cleared.
+    /// Reset variant: the state that RST clears.
     pub variant: &'static str,
-    /// Whether every unit time has the pulses that its word makes, and every axis ended where it
-    /// should and kept the driver's timing.
+    /// True if every unit time has the pulses of its word, and every axis ended at its demanded
+    /// position and met the driver's timing.
     pub exact: bool,
-    /// The axes.
     pub axes: ByAxis<AxisSummary>,
     /// Step rates of each axis, and its motor.
     pub step_rates: Rows,
-    /// The table.
     #[serde(flatten)]
     pub table: TableSummary,
     /// Unit times without pulses between two patterns of the memory.
     pub idle_units: u64,
-    /// The device, and where it is compared the conventional one at the same program.
+    /// The device and, in a comparison, the conventional one with the same program.
     pub circuits: Vec<Row>,
 }
 
 /// The table of a run.
 #[derive(Debug, Serialize)]
 pub struct TableSummary {
-    /// Unit times.
     pub units: usize,
     /// Unit times after the end of the path.
     pub appended_units: usize,
     /// Unit times in which a demand was not attainable.
     pub unattainable_units: usize,
-    /// What would make every demand attainable.
+    /// Settings that would make every demand attainable.
     pub remedy: Option<Remedy>,
 }
 
@@ -56,9 +53,7 @@ pub struct AxisSummary {
     pub steps_demanded: i64,
     /// Steps up less steps down.
     pub pulses_emitted: i64,
-    /// Steps up.
     pub pulses_up: u64,
-    /// Steps down.
     pub pulses_down: u64,
     /// Position at the end, in steps from the drawing's origin.
     pub end_position: i64,
@@ -129,7 +124,7 @@ impl TableSummary {
     }
 }
 
-/// What was skipped or assumed on the way to a job's table.
+/// Returns the warnings of the drawing and of its compilation into a table.
 pub fn warnings(job: &Job) -> Vec<String> {
     let mut warnings: Vec<String> = job
         .drawing

@@ -1,4 +1,4 @@
-//! What a run of the trajectory controller begins with: a path, planned, and its machine.
+//! Input of a run of the trajectory controller: a planned path and its machine.
 
 use crate::cli::pieces::{SpeedKeys, fault, pieces};
 use crate::cli::source::Source;
@@ -18,9 +18,9 @@ use motion_rtl::settings::{Place, SettingError};
 /// A path ready to be run.
 #[derive(Debug)]
 pub struct Job {
-    /// What its files are called.
+    /// Stem of the names of its files.
     pub stem: String,
-    /// The input; none where the scenario has the path.
+    /// The input; `None` if the scenario has the path.
     pub drawing: Option<Drawing>,
     /// Its settings.
     pub settings: Settings,
@@ -103,7 +103,7 @@ impl Job {
         })
     }
 
-    /// How many axes there are.
+    /// Returns the count of axes.
     pub fn axes(&self) -> usize {
         self.machines.len()
     }
@@ -119,7 +119,7 @@ impl Job {
         self.program.motion.period
     }
 
-    /// Whether a piece is a rapid move.
+    /// Returns true if a piece is a rapid move.
     pub fn is_rapid(&self, piece: usize) -> bool {
         self.rapid.get(piece).copied().unwrap_or(false)
     }

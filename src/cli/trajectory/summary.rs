@@ -1,4 +1,4 @@
-//! What the runs came to.
+//! Summary of the runs.
 
 use super::Job;
 use super::rows::{self, CorrectionRow, SegmentRow};
@@ -14,12 +14,11 @@ use serde::Serialize;
 /// The summary of a run.
 #[derive(Debug, Serialize)]
 pub struct Summary {
-    /// What it has as all others.
+    /// Fields that all summaries share.
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Settings of the run.
     pub settings: Settings,
-    /// Axes.
     pub axes: usize,
     /// Δt in ticks.
     pub period_ticks: u32,
@@ -31,22 +30,18 @@ pub struct Summary {
     pub loading_ticks: u64,
     /// Interpolation periods.
     pub periods: usize,
-    /// Whether every command is on the path, and every run came to rest at the path's end.
+    /// True if every command is on the path and every run came to rest at the path's end.
     pub exact: bool,
-    /// The path.
     pub path: PathSummary,
-    /// The look-ahead.
     pub plan: PlanSummary,
-    /// By each correction.
+    /// Results by correction.
     pub corrections: Vec<CorrectionRow>,
-    /// Every segment.
     pub segments: Vec<SegmentRow>,
 }
 
 /// A path by its length.
 #[derive(Debug, Serialize)]
 pub struct PathSummary {
-    /// Its segments.
     pub segments: usize,
     /// L.
     pub length_mm: f64,
@@ -54,31 +49,30 @@ pub struct PathSummary {
     pub zero_length: usize,
 }
 
-/// What the look-ahead made of it.
+/// Result of the look-ahead.
 #[derive(Debug, Serialize)]
 pub struct PlanSummary {
     /// T: from the first period to the last command.
     pub seconds: f64,
-    /// Highest speed.
     pub speed_max_mm_per_s: f64,
     /// Acceleration along the path.
     pub acceleration_mm_per_s2: f64,
     /// Joints of two segments at which the path stops.
     pub stops: usize,
-    /// The slowest of the other joints of two segments that are no rapid moves.
+    /// Slowest of the other joints, rapid moves excluded.
     pub slowest_joint: Option<Joint>,
 }
 
-/// Where two segments meet.
+/// Joint of two segments.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Joint {
     /// The segment that begins.
     pub segment: usize,
-    /// Line of the input it stands in.
+    /// Line of the input.
     pub line: Option<usize>,
     /// The speed there.
     pub speed_mm_per_s: f64,
-    /// What the turn allows.
+    /// Speed limit by the turn.
     pub limit_mm_per_s: f64,
 }
 
@@ -148,7 +142,7 @@ fn plan(job: &Job, segments: &[SegmentRow]) -> PlanSummary {
     }
 }
 
-/// What was skipped or assumed on the way to the path, and torques at their limits.
+/// Returns the warnings of the drawing and the path, and of torques at their limits.
 fn warnings(job: &Job, runs: &Runs) -> Vec<String> {
     let own = job.drawing.iter().flat_map(|drawing| &drawing.warnings);
     let mut warnings: Vec<String> = own.map(ToString::to_string).collect();

@@ -67,7 +67,7 @@ fn plural(count: usize, what: &str) -> String {
 }
 
 impl Summary {
-    /// What the servo controls do not know of.
+    /// Writes the load torques, which the servo controls do not know.
     fn disturbances(&self, text: &mut String) -> fmt::Result {
         for torque in &self.settings.load_torque {
             let until = torque.to_s.map_or("on".to_owned(), |s| format!("to {s} s"));
@@ -94,7 +94,7 @@ impl Summary {
         Ok(())
     }
 
-    /// What the feed is limited to, and what that costs.
+    /// Writes the feed limit of the contour tolerance and the time that it costs.
     fn tolerance(&self, text: &mut String) -> fmt::Result {
         let full = self.corrections.iter().find(|row| row.full_feed);
         let Some(mm) = self.settings.contour_tolerance_mm else {

@@ -1,13 +1,13 @@
-//! Whether the runs did what the path says.
+//! Verdict on the runs: their commands and ends against the path.
 
 use super::Job;
 use super::runs::{Run, Runs};
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
 
-/// What is said of a run that did not come to rest.
+/// Complaint about a run that did not come to rest.
 pub const NOT_SETTLED: &str = "models and motors did not settle at the end";
 
-/// What is wrong with the runs; empty where nothing is.
+/// Returns the complaints about the runs; empty if there are none.
 pub fn complaints(job: &Job, runs: &Runs) -> Vec<String> {
     let each = runs.runs.iter().flat_map(|run| {
         let own = of_run(job, run, compared(run, runs)).into_iter();
@@ -16,7 +16,7 @@ pub fn complaints(job: &Job, runs: &Runs) -> Vec<String> {
     each.collect()
 }
 
-/// Whether a run is there for its gains to be seen: a loop that they make unstable is no fault.
+/// Returns true if a run is there to show its gains: a loop that they make unstable is no fault.
 pub fn compared(run: &Run, runs: &Runs) -> bool {
     run.correction == Correction::Feedback && runs.traced != Correction::Feedback
 }
@@ -148,7 +148,7 @@ mod tests {
         ];
         let each = ["none", "steady", "feedback", "vector"];
         let texts = each.map(|name| texts.map(|text| format!("{name}: {text}")));
-        // What its gains do is no fault of a run that is compared.
+        // The effect of its gains is no fault of a run for comparison.
         let own = texts.iter().enumerate();
         let own = own.flat_map(|(k, texts)| texts[..if k == 2 { 2 } else { 4 }].to_vec());
         assert_eq!(judged(&job, &flags), own.collect::<Vec<_>>());

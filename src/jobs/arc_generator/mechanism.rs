@@ -47,8 +47,8 @@ impl Mechanism {
     }
 }
 
-/// Vibration of a mechanism under commands that come one by one, with linear motion between two.
-/// It is at rest before the first; after the last the command rests.
+/// Vibration of a mechanism under successive commands, with linear motion between two commands.
+/// The mechanism is at rest before the first command; after the last one the command rests.
 ///
 /// The deviation from the command oscillates freely, except for the commands' changes of speed,
 /// which change its rate. There is no integration error; the only error is evaluation at 16 times

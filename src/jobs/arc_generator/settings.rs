@@ -17,7 +17,8 @@ use std::ops::RangeInclusive;
 /// Shortest sampling period in ticks: a record is fetched and a rotation done within it.
 pub const LEAST_SAMPLE_TICKS: u64 = least_sample_ticks(Blend::Differences);
 
-/// The same where blends are made so: products take longer than a rotation.
+/// Returns the shortest sampling period in ticks by kind of blend: products take longer than a
+/// rotation.
 #[must_use]
 pub const fn least_sample_ticks(blend: Blend) -> u64 {
     ArcGenerator::new(Rounding::Nearest, blend).least_period()
@@ -30,10 +31,10 @@ pub const SPEED_RANGE_MM_PER_MIN: RangeInclusive<f64> = 6e-5..=6e10;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ShortPieces {
-    /// It is refused, and the largest speed that fits is said.
+    /// Refused, with an error that says the largest speed that fits.
     #[default]
     Refuse,
-    /// It is run at the largest speed that fits.
+    /// Run at the largest speed that fits.
     Slower,
 }
 
@@ -45,7 +46,7 @@ settings! {
     pub struct Settings {
         /// Start of the first piece.
         pub start_mm: Point = [0.0; 3];
-        /// Pieces of the path, where it is no drawing.
+        /// Pieces of the path, if it is not a drawing.
         pub piece: Vec<TaughtPiece> = Vec::new();
         /// Reference clock.
         pub clock_hz: u64 = 1_000_000, in CLOCK_RANGE_HZ;
@@ -84,10 +85,10 @@ impl Settings {
         self.timing(widths).map(drop)
     }
 
-    /// Ts as ticks of the clock.
+    /// Returns Ts in ticks of the clock.
     ///
     /// # Errors
-    /// As [`Settings::validate`], of the clock and the sampling period.
+    /// An error of [`Settings::validate`] on the clock or the sampling period.
     pub fn sample_ticks(&self, widths: &Widths) -> Result<u32, SettingError> {
         within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
         let ticks = least_sample_ticks(self.blend)..=(1 << widths.period) - 1;
@@ -99,10 +100,10 @@ impl Settings {
         )
     }
 
-    /// The times of a path, of which all that depend on the words are within them.
+    /// Returns the times of a path; all that depend on the words fit them.
     ///
     /// # Errors
-    /// As [`Settings::validate`].
+    /// An error of [`Settings::validate`].
     pub fn timing(&self, widths: &Widths) -> Result<Timing, SettingError> {
         let ticks = self.sample_ticks(widths)?;
         let blend_samples = self.blend_samples(widths)?;

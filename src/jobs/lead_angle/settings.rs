@@ -23,14 +23,14 @@ pub const CK_RANGE_TICKS: RangeInclusive<u32> = 4..=(1 << WIDTHS.ck_period) - 1;
 /// Targets that are accepted, in counts: no way between two of them is half of what wraps.
 pub const TARGET_RANGE_COUNTS: RangeInclusive<i64> =
     -(1 << (WIDTHS.position - 3))..=1 << (WIDTHS.position - 3);
-/// How many steps there may be.
+/// Allowed count of steps.
 pub const STEPS_RANGE: RangeInclusive<usize> = 1..=1 << WIDTHS.step;
-/// How many positionings a run may have.
+/// Allowed count of positionings in a run.
 pub const POSITIONINGS_RANGE: RangeInclusive<u32> = 1..=10_000;
 /// Times other than lead times that are accepted, in CKs.
 pub const TIME_RANGE_CKS: RangeInclusive<u16> = 1..=((1u32 << WIDTHS.cks) - 1) as u16;
 
-/// What keeps the positions of the past (11).
+/// Memory of the past positions (11).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum History {
@@ -52,7 +52,7 @@ impl History {
     }
 }
 
-/// Where the lead of the scenario's own system comes from.
+/// Source of the lead of the scenario's own system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LeadBy {
@@ -65,19 +65,19 @@ pub enum LeadBy {
     Table,
 }
 
-/// What the control signal is for.
+/// Purpose of the control signal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Action {
-    /// To stop the body at the target.
+    /// Stops the body at the target.
     #[default]
     Stop,
-    /// An operation that is to take effect at the target while the body goes on; a sensor says when
-    /// it does.
+    /// Starts an operation that takes effect at the target while the body goes on; a sensor reports
+    /// the effect.
     Operate,
 }
 
-/// What a target counts from.
+/// Reference point of a target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Targets {
@@ -99,7 +99,7 @@ pub enum Completion {
     FixedTime,
 }
 
-/// Where the first time data come from (25).
+/// Source of the first time data (25).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TimeSource {
@@ -212,7 +212,7 @@ settings! {
         pub load_change_after: Option<u32> = None, "1 to positionings";
     }
     flat {
-        /// Resolver, where it is the detector.
+        /// Resolver, if it is the detector.
         pub resolver: ResolverParameters = ResolverParameters::default();
         /// Load from the load change on.
         pub load: Load = Load::default();
@@ -261,7 +261,7 @@ impl Settings {
         self.steps.iter().any(|step| step.load_lead_ms.is_some())
     }
 
-    /// Where a positioning, by its number from 0 on, is to stop, in counts from the start.
+    /// Returns the target of a positioning, numbered from 0, in counts from the start.
     #[must_use]
     pub fn target(&self, positioning: usize) -> i64 {
         let count = self.steps.len();
@@ -280,14 +280,14 @@ impl Settings {
         self.target(positioning) - before.map_or(0, |before| self.target(before))
     }
 
-    /// Where its switch stands: the target, or so much before it.
+    /// Returns the position of its switch: the target, or the configured distance before it.
     pub(super) fn switch(&self, positioning: usize) -> i64 {
         let counts = self.switches_counts.get(positioning % self.steps.len());
         let before = counts.map_or(0, |counts| i64::from(*counts));
         self.target(positioning) - self.way(positioning).signum() * before
     }
 
-    /// How far before its target the switch of a step can stand: less than its way.
+    /// Returns the largest distance of a step's switch before its target: less than the step's way.
     #[must_use]
     pub fn farthest_switch(&self, step: usize) -> u32 {
         let ways = [step, step + self.steps.len()].map(|number| self.way(number).unsigned_abs());
@@ -303,7 +303,7 @@ impl Settings {
         (self.operation_delay_s * factor * self.clock_hz as f64).round() as u64
     }
 
-    /// A time other than a lead time in whole CKs; saturates.
+    /// Returns a time other than a lead time in whole CKs; saturates.
     #[must_use]
     pub fn cks(&self, ms: f64) -> u16 {
         (ms / self.ck_ms()).round() as u16
@@ -316,8 +316,8 @@ impl Settings {
         u64::from(word).min(self.followed_counts_per_s() as u64) as u32
     }
 
-    /// Checks every field. A body that operates in passing comes to each target after its step is
-    /// armed, its lead before it.
+    /// Checks every field, and that a body that operates in passing reaches the lead before each
+    /// target after the step is armed.
     ///
     /// # Errors
     ///
@@ -327,7 +327,7 @@ impl Settings {
         self.validate_passing(|index| self.own_leads_s(index))
     }
 
-    /// Checks what a run needs, whatever its leads are: in passing, a body does not turn back.
+    /// Checks the conditions of a run with any lead: in passing, a body does not turn back.
     pub(super) fn validate_driven(&self) -> Result<(), SettingError> {
         self.validate_fields()?;
         self.validate_passing(|_| [0.0; 2])

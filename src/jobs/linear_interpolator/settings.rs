@@ -21,10 +21,10 @@ pub const AXIS_NAMES: [&str; 2] = ["x", "y"];
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ShortMoves {
-    /// It keeps its acceleration: the times become shorter.
+    /// Keeps the acceleration; the times become shorter.
     #[default]
     ConstantAcceleration,
-    /// It keeps its times: the acceleration becomes smaller.
+    /// Keeps the times; the acceleration becomes smaller.
     ConstantTime,
 }
 

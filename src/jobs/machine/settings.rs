@@ -1,4 +1,4 @@
-//! What the machine is run with: clock and rates, steppers, servos, pen lift.
+//! Settings of the machine: clock and rates, steppers, servos, pen lift.
 
 use crate::jobs::arc_generator::settings::{self as arcs, ShortPieces};
 use crate::jobs::lead_angle::settings as lift;
@@ -97,7 +97,7 @@ pub fn lift_body() -> BodyParameters {
 }
 
 impl Settings {
-    /// Checks the rates and what no part of the machine checks for itself.
+    /// Checks the rates, and everything that no part of the machine checks.
     ///
     /// # Errors
     /// Names the first field at fault, its value and what is allowed.
@@ -137,20 +137,20 @@ impl Settings {
         f64::from(self.sample_ticks) / self.clock_hz as f64
     }
 
-    /// A scan in seconds.
+    /// Returns the scan in seconds.
     #[must_use]
     pub fn scan_s(&self) -> f64 {
         f64::from(self.scan_ticks) / self.clock_hz as f64
     }
 
-    /// `acceleration_ms` as it is taken on lines, in scans, and on arcs, in pairs of samples.
+    /// Returns `acceleration_ms` in whole scans for lines, and in whole pairs of samples for arcs.
     #[must_use]
     pub fn ramps(&self) -> [WholeTime; 2] {
         [self.scan_s(), 2.0 * self.sample_s()]
             .map(|period_s| WholeTime::new("acceleration_ms", self.acceleration_ms, 1e3 * period_s))
     }
 
-    /// What the steppers' table is compiled for.
+    /// Returns the settings for compiling the steppers' table.
     #[must_use]
     pub fn pulse(&self) -> pulse::Settings {
         pulse::Settings {
@@ -164,7 +164,7 @@ impl Settings {
         }
     }
 
-    /// What arcs are prepared for: an even number of samples to come to speed.
+    /// Returns the settings for preparing arcs: an even number of samples to come to speed.
     #[must_use]
     pub fn arcs(&self) -> arcs::Settings {
         let [_, arcs] = self.ramps();
@@ -181,7 +181,7 @@ impl Settings {
         }
     }
 
-    /// What the trajectory controller is set to.
+    /// Returns the settings of the trajectory controller.
     #[must_use]
     pub fn trajectory(&self) -> trajectory::Settings {
         trajectory::Settings {
@@ -203,7 +203,7 @@ impl Settings {
         }
     }
 
-    /// What the lead-angle compensator is set to: step 0 lowers the pen, step 1 lifts it.
+    /// Returns the settings of the lead-angle compensator: step 0 lowers the pen, step 1 lifts it.
     #[must_use]
     pub fn lift(&self) -> lift::Settings {
         let step = |target| lift::Step {

@@ -29,7 +29,7 @@ pub const LEAST_PERIOD_TICKS: u64 =
 /// Longest jerk time that is accepted, in ms.
 pub const JERK_TIME_RANGE_MS: RangeInclusive<f64> = 0.0..=1e6;
 
-/// Acceleration along the path where nothing else is told, in mm/s².
+/// Default acceleration along the path, in mm/s².
 pub const ACCELERATION_MM_PER_S2: f64 = 2000.0;
 
 /// Acceleration times that are accepted, in ms.
@@ -49,9 +49,9 @@ settings! {
     pub struct Settings {
         /// Start of the first piece; at 0 without it.
         pub start_mm: Option<Coordinates> = None;
-        /// Pieces of the path, where it is no drawing.
+        /// Pieces of the path, if it is not a drawing.
         pub piece: Vec<TaughtPiece> = Vec::new();
-        /// Axes: 2, 3, or 4 with W; without it 3 where the path moves in Z, else 2.
+        /// Axes: 2, 3, or 4 with W. Default: 3 if the path moves in Z, otherwise 2.
         pub axes: Option<u32> = None, in 2..=4;
         /// Reference clock.
         pub clock_hz: u64 = 1_000_000, in CLOCK_RANGE_HZ;
@@ -59,7 +59,7 @@ settings! {
         pub period_ms: f64 = 1.0, "as many ticks as the circuit needs, or more";
         /// Counts per millimetre, of every axis.
         pub counts_per_mm: f64 = 1000.0, in COUNTS_PER_MM_RANGE;
-        /// F: speed of the pieces that have none of their own.
+        /// F: speed of the pieces without an own speed.
         pub feed_mm_per_min: Option<f64> = None, in SPEED_RANGE_MM_PER_MIN;
         /// Speed with the pen up, and of G0.
         pub rapid_mm_per_min: f64 = 12_000.0, in SPEED_RANGE_MM_PER_MIN;
@@ -84,15 +84,15 @@ settings! {
         /// K2 of the models.
         pub k2_per_s: EachAxis = EachAxis::All(200.0),
             "4 times k1_per_s, or 2 times with allow_overshoot, and more, below 2 per period";
-        /// True if gains are allowed with which the model goes beyond its target: K2 from 2·K1 on.
+        /// Allows gains with which the models overshoot their targets: K2 from 2·K1 on.
         pub allow_overshoot: bool = false;
         /// Rounding of the models.
         pub rounding: Rounding = Rounding::default();
         /// Correction that is added to the path's point in the run whose waves are written.
         pub correction: Correction = Correction::default();
-        /// Gain of the error along the path, where errors are fed back.
+        /// Gain of the error along the path in the error feedback.
         pub tangential_gain: f64 = 1.0, "0 to what a word of the gain holds";
-        /// Gain of the error across the path, likewise.
+        /// Gain of the error across the path in the error feedback.
         pub normal_gain: f64 = 1.0, "0 to what a word of the gain holds";
         /// Gain of the position controls.
         pub position_gain_per_s: f64 = 30.0, in RATE_RANGE;
@@ -107,12 +107,12 @@ settings! {
         pub load_torque: Vec<LoadTorque> = Vec::new();
         /// Amplifier, motor, load and encoder of every axis.
         pub machine: TwoMassParameters = TwoMassParameters::default();
-        /// The same of each axis by itself, in place of `machine`.
+        /// Amplifier, motor, load and encoder of each axis by itself, in place of `machine`.
         pub axis: Vec<TwoMassParameters> = Vec::new();
     }
 }
 
-/// What the planner needs of the settings.
+/// Settings that the planner needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion {
     /// Guard units of a millimetre.
@@ -123,8 +123,8 @@ pub struct Motion {
     pub slope: Slope,
     /// Largest acceleration across the path, in mm/s².
     pub normal_acceleration: f64,
-    /// Acceleration across the path, in mm/s², at which the models are as far inside of it as they
-    /// may be; infinite where nothing is told.
+    /// Acceleration across the path, in mm/s², at which the models' inward error equals the
+    /// tolerance; infinite without a tolerance.
     pub contour_acceleration: f64,
     /// Largest acceleration of each axis, in mm/s².
     pub axis_acceleration: [f64; AXES],
@@ -162,9 +162,9 @@ impl Gains {
 /// The gains of the error feedback as words: parts of 2^(K/2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FeedbackGains {
-    /// Of the tangential error.
+    /// Gain of the tangential error.
     pub tangential: u64,
-    /// Of the normal error.
+    /// Gain of the normal error.
     pub normal: u64,
 }
 
@@ -196,7 +196,7 @@ impl Settings {
     /// Returns the taught pieces; none if the path is a drawing, `input`.
     ///
     /// # Errors
-    /// As [`taught`]; a start without W where there are four axes, or with it where there are not.
+    /// An error of [`taught`]; a start without W on four axes, or with W on fewer.
     pub fn taught(&self, input: Option<&PathBuf>) -> Result<Vec<Taught>, SettingError> {
         let fourth = self.has_fourth();
         let start = self.start_mm.as_ref();
@@ -226,7 +226,7 @@ impl Settings {
         }
     }
 
-    /// Returns motor and load of each of so many axes.
+    /// Returns motor and load of each of `axes` axes.
     ///
     /// # Errors
     /// There are tables `[[axis]]`, and not one for each axis.
@@ -256,28 +256,29 @@ impl Settings {
         self.contour_acceleration(widths, &gains).map(drop)
     }
 
-    /// Δt as ticks of the clock.
+    /// Returns Δt in ticks of the clock.
     ///
     /// # Errors
-    /// As [`Settings::validate`], of the clock and the period.
+    /// An error of [`Settings::validate`] on the clock or the period.
     pub fn period_ticks(&self, widths: &Widths) -> Result<u32, SettingError> {
         within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
         let ticks = LEAST_PERIOD_TICKS..=(1 << widths.period) - 1;
         whole_ticks("period_ms", self.period_ms, self.clock_hz, &ticks)
     }
 
-    /// Δt in seconds.
+    /// Returns Δt in seconds.
     ///
     /// # Errors
-    /// As [`Settings::period_ticks`].
+    /// An error of [`Settings::period_ticks`].
     pub fn period_s(&self, widths: &Widths) -> Result<f64, SettingError> {
         Ok(f64::from(self.period_ticks(widths)?) / self.clock_hz as f64)
     }
 
-    /// What the planner needs; [`Motion::contour_acceleration`] is infinite, as it is of the gains.
+    /// Returns the planner's settings; [`Motion::contour_acceleration`] is infinite, as it depends
+    /// on the gains.
     ///
     /// # Errors
-    /// As [`Settings::validate`], of all but the model's gains.
+    /// An error of [`Settings::validate`] on anything but the model's gains.
     pub fn motion(&self, widths: &Widths) -> Result<Motion, SettingError> {
         self.ranges()?;
         let period = self.period_s(widths)?;
@@ -345,11 +346,11 @@ impl Settings {
         ))
     }
 
-    /// Acceleration with which a speed is reached in [`Settings::acceleration_time_ms`], in mm/s²; none
-    /// where an acceleration is told.
+    /// Returns the acceleration that reaches a speed in [`Settings::acceleration_time_ms`], in
+    /// mm/s²; `None` if the setting is not given.
     ///
     /// # Errors
-    /// A time in which it would be out of its range.
+    /// A time that would put the acceleration out of its range.
     pub(super) fn acceleration_to(&self, speed: f64) -> Result<Option<f64>, SettingError> {
         let Some(time_ms) = self.acceleration_time_ms else {
             return Ok(None);
@@ -379,10 +380,10 @@ impl Settings {
         Ok(allowed)
     }
 
-    /// The gains of the error feedback, to the nearest word.
+    /// Returns the gains of the error feedback, rounded to the nearest word.
     ///
     /// # Errors
-    /// One that is no word.
+    /// A gain does not fit its word.
     pub fn feedback_gains(&self, widths: &Widths) -> Result<FeedbackGains, SettingError> {
         let one = (widths.feedback().gain_fraction() as f64).exp2();
         let range = 0.0..=((1u64 << widths.gain) - 1) as f64 / one;
@@ -396,25 +397,27 @@ impl Settings {
         })
     }
 
-    /// The gains of the models of so many axes.
+    /// Returns the gains of the models of `axes` axes.
     ///
     /// # Errors
-    /// As [`Settings::validate`]; a list that is not one for each axis.
+    /// An error of [`Settings::validate`]; a list whose length is not the count of axes.
     pub fn gains(&self, widths: &Widths, axes: usize) -> Result<Vec<Gains>, SettingError> {
         self.k1_per_s.check("k1_per_s", axes)?;
         self.k2_per_s.check("k2_per_s", axes)?;
         (0..axes).map(|axis| self.gains_of(widths, axis)).collect()
     }
 
-    /// The gains of an axis's model, to the nearest word; but K1 rounds down where rounding alone
-    /// would make the model go beyond its target.
+    /// Returns the gains of an axis's model, rounded to the nearest word. K1 rounds down if
+    /// rounding alone would make the model overshoot its target.
     ///
     /// # Errors
-    /// As [`Settings::validate`], of clock, period and gains. With gains k1, k2 a period: the model is
-    /// stable where k1 < 1 and k2·(2 − k1) < 4, which a word below 2 always is; it does not go beyond
-    /// its target where also 4·k1 <= k2; what rounding makes of it dies out where 2·k1 <= k2; and it
-    /// comes to the count it is told to where k1·k2 is a guard unit or more, with
-    /// [`Rounding::Floor`] two of them.
+    /// An error of [`Settings::validate`] on clock, period and gains. With gains k1, k2 per period:
+    ///
+    /// - the model is stable if k1 < 1 and k2·(2 − k1) < 4, which words below 2 always fulfil;
+    /// - it does not overshoot its target if also 4·k1 <= k2;
+    /// - its rounding errors die out if 2·k1 <= k2;
+    /// - it reaches its commanded count if k1·k2 is at least one guard unit, with
+    ///   [`Rounding::Floor`] two.
     fn gains_of(&self, widths: &Widths, axis: usize) -> Result<Gains, SettingError> {
         let period = self.period_s(widths)?;
         let bits = widths.gain - 1;
@@ -433,7 +436,7 @@ impl Settings {
             let allowed = format!("{first} to {last}: {least} to {most} a period; {why}");
             SettingError::new(field, problem, allowed)
         };
-        // What k1·k2 must be, as a product of words.
+        // Least k1·k2 as a product of words.
         let exact = match self.rounding {
             Rounding::Nearest => 1u64 << (2 * bits - widths.guard()),
             Rounding::Floor => 2 << (2 * bits - widths.guard()),

@@ -53,7 +53,7 @@ impl BodyParameters {
 }
 
 settings! {
-    /// What the body carries, as factors of what it is without.
+    /// Load on the body, as factors of the values without it.
     #[derive(Copy)]
     pub struct Load {
         /// Factor of the inertia.

@@ -1,4 +1,4 @@
-//! What is wrong with the text of a scenario, all of it.
+//! All errors in the text of a scenario.
 
 use std::ops::Range;
 
@@ -52,7 +52,7 @@ pub(super) fn read(
             None => break,
         }
     }
-    // What is missing may be what is written otherwise: that comes first.
+    // A missing key may be a misspelt one: misspelt keys come first.
     found.sort_by_key(|fault| (fault.problem == "missing", fault.line));
     let mut faults = Faults::default();
     for fault in found {
@@ -109,8 +109,8 @@ fn leave_out(table: &mut Spanned<DeTable<'_>>, path: &Path, unknown: bool) -> Op
     inner.remove(*last).map(|_| (*last).to_owned())
 }
 
-/// Where in the text the value is that a line gives to its key, the line from 1; else all of the
-/// line.
+/// Returns the range of the value that a line, numbered from 1, gives to its key; the whole line if
+/// there is none.
 pub(super) fn value_in(text: &str, line: usize) -> Option<Range<usize>> {
     let before = line.checked_sub(1)?;
     let mut lines = text.split_inclusive('\n');
@@ -155,7 +155,7 @@ pub(super) fn split(message: &str) -> (String, String) {
     if let Some((problem, allowed)) = message.split_once(ALLOWED) {
         return (problem.to_owned(), allowed.to_owned());
     }
-    // What the parser expects next, where the text is no TOML, is rarely what was meant.
+    // If the text is not TOML, the token that the parser expects next is rarely the one meant.
     let of_a_value = message.starts_with("invalid ") || message.starts_with("unknown ");
     let (problem, allowed) = message
         .split_once(", expected ")
@@ -178,12 +178,12 @@ pub(super) fn split(message: &str) -> (String, String) {
     (problem.replace(" as i128", ""), allowed.to_owned())
 }
 
-/// What the TOML reader refuses, with its line.
+/// Returns an error of the TOML reader as a fault with its line.
 pub(super) fn fault(file: &str, text: &str, error: &toml::de::Error) -> Fault {
     let message = error.message();
     if let Some(key) = message.strip_prefix("missing field `") {
         let key = key.trim_end_matches('`');
-        // What lacks in a table lacks where the table begins, else in the file as a whole.
+        // A key missing from a table is reported at the table's start, others for the whole file.
         let place = error.span().map_or(0, |span| span.start);
         let line = match place {
             0 => 0,

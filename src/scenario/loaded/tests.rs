@@ -189,7 +189,7 @@ fn an_override_holds_one_value() {
     assert!(refusal(BARE, &[set]).starts_with("--set: clock_hz: invalid type: string"));
 }
 
-/// What a circuit cannot do without.
+/// Returns the least scenario of a circuit.
 fn least(circuit: Runnable) -> String {
     let steps = match circuit {
         Runnable::LeadAngle => "step = [{target = 1, speed_counts_per_s = 10, lead_ms = 5}]\n",

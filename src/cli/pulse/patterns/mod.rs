@@ -37,11 +37,11 @@ pub struct Job {
 /// A pattern of the memory.
 struct Pattern {
     keys: PatternKeys,
-    /// As it was given.
+    /// Table before scaling.
     given: Table,
-    /// As it is played.
+    /// Table as played.
     table: Table,
-    /// What scaling did to each axis.
+    /// Effect of scaling on each axis.
     scaling: Option<Vec<AxisScaling>>,
 }
 
@@ -155,7 +155,7 @@ fn found(
     play.iter().map(find).collect()
 }
 
-/// What the memory or the group objects to.
+/// Returns an error of the memory or of the group, with its place in the scenario.
 fn stored_fault(loaded: &Loaded, error: StoredError) -> Fault {
     let table = |pattern, problem, allowed| {
         loaded.table_fault(("pattern", pattern), "table", problem, allowed)

@@ -12,7 +12,7 @@ pub const PITCH_RANGE_COUNTS: RangeInclusive<u32> = 16..=1 << WIDTHS.code;
 /// Ticks of a resolver's conversion, which a CK has at least.
 pub const CONVERSION_TICKS: u32 =
     TrackingConverter::new(WIDTHS.converter, WIDTHS.code).period() as u32;
-/// How far an absolute encoder's sampling clock may be off, in parts per million.
+/// Allowed error of an absolute encoder's sampling clock, in parts per million.
 pub const SAMPLING_RANGE_PPM: RangeInclusive<f64> = -10_000.0..=10_000.0;
 
 impl Settings {
@@ -99,7 +99,8 @@ impl Settings {
         }
     }
 
-    /// What a resolver has, no other detector does; and a CK is long enough for its conversion.
+    /// Checks that only a resolver has a resolver's settings, and that a CK is long enough for its
+    /// conversion.
     fn validate_resolver(&self) -> Result<(), SettingError> {
         let (own, without) = (self.resolver, ResolverParameters::default());
         let least = CONVERSION_TICKS;

@@ -8,7 +8,7 @@ use crate::jobs::lead_angle::lead_table::lead_table;
 use crate::settings::Place;
 
 impl Settings {
-    /// Where the lead of their compensator comes from.
+    /// Returns the source of the lead in the compensator.
     #[must_use]
     pub fn lead_from(&self) -> LeadFrom {
         match self.lead {
@@ -21,7 +21,7 @@ impl Settings {
         }
     }
 
-    /// A lead time as its code; none where it cannot be set.
+    /// Returns the code of a lead time; `None` if it cannot be set.
     #[must_use]
     pub fn code(&self, lead_ms: f64) -> Option<u64> {
         let cks = lead_ms / self.ck_ms();

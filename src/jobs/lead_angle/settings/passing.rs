@@ -123,7 +123,7 @@ impl Settings {
         }
     }
 
-    /// By how much learning may miss a lead: two of its codes, and a CK of sampling.
+    /// Returns the largest error of a learned lead: two of its codes and one CK of sampling.
     fn code_s(&self, lead_s: f64) -> f64 {
         let ck = self.ck_ms() / 1e3;
         let mut ratios = [1.0, 2.0, 5.0].into_iter();
@@ -174,7 +174,8 @@ impl Settings {
         (gone + reached * leads[1] + COUNTS).ceil()
     }
 
-    /// Time of the way that a lead is made of: all of it, or where it is by the speed two gates.
+    /// Returns the time whose way a lead is made of: the lead time, or two gates for a lead by
+    /// speed.
     fn measured_s(&self, lead_s: f64) -> f64 {
         match self.lead {
             LeadBy::Time => lead_s,

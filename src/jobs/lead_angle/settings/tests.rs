@@ -1,4 +1,4 @@
-//! What is accepted, what is refused and with which words.
+//! Settings that are accepted or refused, and the messages.
 
 use super::*;
 use crate::circuits::lead_angle::codes::{STAGES, code, neighbours};

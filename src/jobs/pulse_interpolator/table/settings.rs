@@ -1,4 +1,4 @@
-//! What a table is compiled for: machine, clock and unit times.
+//! Settings for compiling a table: machine, clock and unit times.
 
 use super::count_table::PulseLimits;
 use crate::circuits::pulse_interpolator::AXIS_NAMES;
@@ -126,7 +126,7 @@ impl Settings {
         within("dir_hold_ticks", dir_hold, &(0..=period))
     }
 
-    /// What a unit's pulses must keep to where the direction stays.
+    /// Returns the limits of a unit's pulses while the direction stays the same.
     #[must_use]
     pub fn pulse_limits(&self) -> PulseLimits {
         let timing = self.timing;
@@ -137,7 +137,7 @@ impl Settings {
         )
     }
 
-    /// The same settings with one unit time for lines and arcs alike.
+    /// Returns these settings with one unit time for lines and arcs.
     #[must_use]
     pub fn with_period(&self, period: u32) -> Self {
         Self {
