@@ -9,7 +9,7 @@ use motion_rtl::jobs::linear_interpolator::job::{conventional, play, plotter};
 use motion_rtl::jobs::linear_interpolator::settings::Settings;
 use motion_rtl::jobs::linear_interpolator::targets::{LATENCY_TICKS, Target, compile};
 use motion_rtl::jobs::linear_interpolator::ways::Way;
-use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
+use motion_rtl::trace::{Clock, Options, OutputFile, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;
 use std::fs::File;
 
@@ -49,10 +49,12 @@ fn hold<const N: usize>(
     let options = Options::default();
     let mut vcd = Vcd::new(create("vcd"), circuit, Clock::default(), &options).unwrap();
     let mut stimulus = StimulusFile::new(create("stimulus"), circuit);
-    let mut observers = (Without(&mut vcd), Without(&mut stimulus));
+    let mut expected = OutputFile::new(create("expected"), circuit).unwrap();
+    let mut observers = (Without(&mut vcd), Without((&mut stimulus, &mut expected)));
     let played = play(circuit, targets, settings, &mut observers).unwrap();
     vcd.finish().unwrap();
     stimulus.finish().unwrap();
+    expected.finish().unwrap();
     assert_eq!(played.cycles.len(), targets.len());
     assert!(!played.late && !played.unsettled && played.lost == [false; 2]);
     let report = simulator.hold(path, name, &modules);

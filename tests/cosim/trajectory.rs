@@ -10,7 +10,7 @@ use motion_rtl::jobs::trajectory_controller::segments::FourthAxis;
 use motion_rtl::jobs::trajectory_controller::settings::{Correction, LEAST_PERIOD_TICKS, Settings};
 use motion_rtl::path::pieces::{Speeds, Taught, from_points};
 use motion_rtl::plant::{TwoMassAxis, TwoMassParameters};
-use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
+use motion_rtl::trace::{Clock, Options, OutputFile, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;
 use std::fs::File;
 
@@ -74,10 +74,12 @@ fn hold(axes: usize, correction: Correction, rounding: Rounding, simulator: Simu
     let (clock, options) = (Clock::default(), Options::default());
     let mut vcd = Vcd::new(create("vcd"), &circuit, clock, &options).unwrap();
     let mut stimulus = StimulusFile::new(create("stimulus"), &circuit);
-    let mut observers = (Without(&mut vcd), Without(&mut stimulus));
+    let mut expected = OutputFile::new(create("expected"), &circuit).unwrap();
+    let mut observers = (Without(&mut vcd), Without((&mut stimulus, &mut expected)));
     let played = play(&circuit, &program, plants, &mut observers).unwrap();
     vcd.finish().unwrap();
     stimulus.finish().unwrap();
+    expected.finish().unwrap();
     assert!(!played.late && !played.starved && !played.lost && played.settled);
     let moved = played
         .periods

@@ -7,7 +7,7 @@ use motion_rtl::jobs::lead_angle::job::{Played, play, positioner};
 use motion_rtl::jobs::lead_angle::settings::{
     Comparing, Detector, History, LeadBy, LeadForm, Placement, Settings, Step,
 };
-use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
+use motion_rtl::trace::{Clock, Options, OutputFile, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;
 use std::fs::File;
 
@@ -44,10 +44,12 @@ fn hold(settings: &Settings, simulator: Simulator) -> Played {
     let (clock, all) = (Clock::default(), Options::default());
     let mut vcd = Vcd::new(create("vcd"), &circuit, clock, &all).unwrap();
     let mut stimulus = StimulusFile::new(create("stimulus"), &circuit);
-    let mut observers = (Without(&mut vcd), &mut stimulus);
+    let mut expected = OutputFile::new(create("expected"), &circuit).unwrap();
+    let mut observers = (Without(&mut vcd), &mut stimulus, Without(&mut expected));
     let played = play(&circuit, settings, &mut observers).unwrap();
     vcd.finish().unwrap();
     stimulus.finish().unwrap();
+    expected.finish().unwrap();
     assert_eq!(played.positionings.len(), settings.positionings as usize);
     assert!(!played.lost && !played.unsettled);
     let report = simulator.hold(path, name, &modules);

@@ -10,7 +10,7 @@ use motion_rtl::jobs::arc_generator::record::records;
 use motion_rtl::jobs::arc_generator::reference::commands;
 use motion_rtl::jobs::arc_generator::settings::{LEAST_SAMPLE_TICKS, Settings, ShortPieces};
 use motion_rtl::path::pieces::{Taught, from_points};
-use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
+use motion_rtl::trace::{Clock, Options, OutputFile, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;
 use std::fs::File;
 
@@ -58,7 +58,8 @@ fn hold(rounding: Rounding, simulator: Simulator) -> Played {
     let (clock, options) = (Clock::default(), Options::default());
     let mut vcd = Vcd::new(create("vcd"), &circuit, clock, &options).unwrap();
     let mut stimulus = StimulusFile::new(create("stimulus"), &circuit);
-    let mut observers = (&mut vcd, &mut stimulus);
+    let mut expected = OutputFile::new(create("expected"), &circuit).unwrap();
+    let mut observers = (&mut vcd, &mut stimulus, &mut expected);
     let played = play(
         &circuit,
         &records,
@@ -68,6 +69,7 @@ fn hold(rounding: Rounding, simulator: Simulator) -> Played {
     .unwrap();
     vcd.finish().unwrap();
     stimulus.finish().unwrap();
+    expected.finish().unwrap();
     let seen: Vec<_> = played.commands.iter().map(|one| one.counts).collect();
     assert!(commands(&records, &Widths::FULL, rounding).eq(seen));
     let report = simulator.hold(path, "arc_generator", &modules);
