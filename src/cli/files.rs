@@ -58,7 +58,11 @@ pub fn size(bytes: u64) -> String {
         None => format!("{bytes} B"),
         Some((name, unit)) => {
             let value = bytes as f64 / unit;
-            let digits = 2 - (value.log10() + 1e-3).floor().clamp(0.0, 2.0) as usize;
+            let digits = match value {
+                ..9.995 => 2,
+                ..99.95 => 1,
+                _ => 0,
+            };
             format!("{value:.digits$} {name}")
         }
     }
