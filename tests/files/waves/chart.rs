@@ -154,7 +154,7 @@ fn what_can_be_wrong_with_a_chart() {
         ),
         (
             "tick 0\n= levle 0",
-            "line 3: the circuit has no signal levle; it has: level, phase, step, up, wrapped",
+            "line 3: the circuit has no signal levle; it has: level, phase, step, up, next_level",
         ),
         (
             "tick 0\n> level 0\n= level 0",
