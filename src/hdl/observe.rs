@@ -152,17 +152,15 @@ together!(A 0, B 1, D 2, E 3);
 ///
 /// ```
 /// use motion_rtl::circuits::blocks::EnableCounter;
-/// use motion_rtl::hdl::{Each, Simulator, zero};
+/// use motion_rtl::hdl::{Each, Sample, Simulator, zero};
 ///
 /// let counter = EnableCounter { width: 4 };
-/// let mut counts = Vec::new();
-/// let inputs = |_, _: &_| {
-///     let mut i = zero(&counter);
-///     i.period = 3;
-///     i
-/// };
-/// Simulator::new(&counter)?.run(5, inputs, Each(|now| counts.push(now.q.count)))?;
-/// assert_eq!(counts, [0, 1, 2, 0, 1]);
+/// let mut inputs = zero(&counter);
+/// inputs.period = 3;
+/// let mut enables = Vec::new();
+/// let each = Each(|now: &Sample<'_, EnableCounter>| enables.push(now.w.enable));
+/// Simulator::new(&counter)?.run(6, |_, _| inputs.clone(), each)?;
+/// assert_eq!(enables, [false, false, true, false, false, true]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
