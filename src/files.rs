@@ -8,6 +8,7 @@ mod naming;
 pub use left::{Claim, clear};
 pub use naming::commit_all;
 
+pub use hidden::open;
 use hidden::{NOT_REGULAR, temporary};
 use std::fs;
 use std::io::{self, Seek, SeekFrom, Write};

@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use motion_rtl::hdl::{Circuit, Observer, RunError, Sample};
 use std::io::{IsTerminal, Write, stderr};
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{LazyLock, Mutex, PoisonError};
 use std::thread::{self, sleep};
 use std::time::{Duration, Instant};
@@ -33,11 +33,15 @@ static STAGE: Mutex<Stage> = Mutex::new(Stage { name: "", ticks: 0 });
 static DONE: AtomicU64 = AtomicU64::new(0);
 static BAR: LazyLock<ProgressBar> = LazyLock::new(ProgressBar::new_spinner);
 
+/// True while a run is under way.
+static IN_A_RUN: AtomicBool = AtomicBool::new(false);
+
 /// Start of the program, for the times of stages.
 static BEGAN: LazyLock<Instant> = LazyLock::new(Instant::now);
 
 fn set(stage: Stage) {
-    if voice::is_verbose() {
+    // A stage of no run, as when `list` prepares all scenarios, is not told.
+    if IN_A_RUN.load(Ordering::Relaxed) && voice::is_verbose() {
         let name = match stage.ticks {
             0 => stage.name.to_owned(),
             ticks => format!("{}, about {ticks} ticks", stage.name),
@@ -64,6 +68,7 @@ fn set(stage: Stage) {
 
 /// Begins to tell, until the program ends or [`end`].
 pub fn begin() {
+    IN_A_RUN.store(true, Ordering::Relaxed);
     set(Stage {
         name: "reading",
         ticks: 0,

@@ -23,8 +23,16 @@ impl Viewer {
     /// Finds a viewer.
     ///
     /// # Errors
-    /// There is none in PATH.
+    /// There is no display, or no viewer in PATH.
     pub fn find() -> Result<Self, Failure> {
+        let display = ["DISPLAY", "WAYLAND_DISPLAY"];
+        if cfg!(target_os = "linux") && display.iter().all(|name| env::var_os(name).is_none()) {
+            return Err(Failure::Argument {
+                field: "--open",
+                problem: "there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set".into(),
+                allowed: "a graphical session, or a run without --open".into(),
+            });
+        }
         let path = env::var_os("PATH").unwrap_or_default();
         let directories: Vec<_> = env::split_paths(&path).collect();
         let found = VIEWERS.iter().find_map(|(name, opens)| {

@@ -1,10 +1,14 @@
 //! The list of files that runs have made in a directory, by which `clean` knows them.
 
+use motion_rtl::files::open;
 use std::collections::BTreeMap;
-use std::fs::{self, Metadata, OpenOptions};
-use std::io::Write as _;
+use std::fs::{Metadata, OpenOptions};
+use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
+
+/// Most bytes of a list that are read.
+const LARGEST: u64 = 16 << 20;
 
 /// Name of the list.
 const LIST: &str = ".motion-rtl-written";
@@ -20,15 +24,20 @@ pub struct Written {
 }
 
 impl Written {
-    /// Reads the list of a directory; it is empty where there is none.
+    /// Reads the list of a directory; it is empty where there is none. Only names of files in the
+    /// directory itself count: the list may come from anywhere.
     pub fn read(directory: &Path) -> Self {
-        let text = fs::read_to_string(directory.join(LIST)).unwrap_or_default();
+        let mut text = String::new();
+        // A link, a pipe or a directory of that name is no list.
+        let opened = open(OpenOptions::new().read(true), &directory.join(LIST));
+        let _ = opened.and_then(|file| file.take(LARGEST).read_to_string(&mut text));
         // A later line of a name replaces an earlier one.
         let lines = text.lines().filter_map(|line| {
             let mut words = line.splitn(3, ' ');
             let mut number = || words.next()?.parse().ok();
             let (size, changed) = (number()?, number()?);
-            Some((words.next()?.to_owned(), (size as u64, changed)))
+            let name = words.next().filter(|name| is_plain(name))?;
+            Some((name.to_owned(), (size as u64, changed)))
         });
         Written {
             directory: directory.to_owned(),
@@ -63,7 +72,7 @@ impl Written {
             }
         }
         let list = self.directory.join(LIST);
-        let opened = OpenOptions::new().append(true).create(true).open(list);
+        let opened = open(OpenOptions::new().append(true).create(true), &list);
         // One write, as another run may add its own meanwhile.
         let _ = opened.and_then(|mut file| file.write_all(lines.as_bytes()));
     }
@@ -85,6 +94,11 @@ impl Written {
     pub fn list(&self) -> PathBuf {
         self.directory.join(LIST)
     }
+}
+
+/// True if this is the name of a file in the directory itself.
+fn is_plain(name: &str) -> bool {
+    Path::new(name).file_name() == Some(name.as_ref())
 }
 
 fn name(path: &Path) -> Option<&str> {

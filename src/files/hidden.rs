@@ -70,7 +70,7 @@ pub(super) fn rename(from: &Path, to: &Path) -> io::Result<()> {
 /// # Errors
 /// Returns [`NOT_REGULAR`] as [`io::ErrorKind::InvalidInput`] if the name belongs to something
 /// else.
-pub(super) fn open(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
+pub fn open(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::OpenOptionsExt;

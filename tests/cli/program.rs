@@ -379,6 +379,7 @@ fn open_starts_a_viewer_with_the_save_file() {
     bench
         .command(&run)
         .env("PATH", path("bin"))
+        .env("DISPLAY", ":0")
         .assert()
         .success();
     for _ in 0..1000 {
@@ -393,10 +394,69 @@ fn open_starts_a_viewer_with_the_save_file() {
     let output = bench
         .command(&run)
         .env("PATH", bench.path("none"))
+        .env("DISPLAY", ":0")
         .output()
         .unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     let text = "error: --open: no viewer of waves in PATH; allowed: gtkwave or surfer\n";
     assert_eq!((output.status.code(), said.as_str()), (Some(2), text));
     assert_eq!(bench.names(), ["line.hpgl"]);
+
+    #[cfg(target_os = "linux")]
+    {
+        let mut command = bench.command(&run);
+        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+        let output = command.output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        let text = "error: --open: there is no display: neither ";
+        assert!(said.starts_with(text), "{said}");
+        assert_eq!(output.status.code(), Some(2));
+    }
+}
+
+/// The list of what runs have written may come from anywhere.
+#[cfg(unix)]
+#[test]
+fn a_list_names_files_of_its_directory_alone() {
+    use std::os::unix::fs::{MetadataExt as _, symlink};
+    let bench = Bench::with("o/line.hpgl", LINE);
+    bench.write("victim/w.vcd", "mine");
+    let there = bench.path("victim/w.vcd").metadata().unwrap();
+    let changed = i128::from(there.mtime()) * 1_000_000_000 + i128::from(there.mtime_nsec());
+    let size = there.len();
+    let absolute = bench.path("victim/w.vcd").display().to_string();
+    let lines = ["../victim/w.vcd", &absolute, "..", "a/b", "."];
+    let lines = lines.map(|name| format!("{size} {changed} {name}\n"));
+    bench.write("o/.motion-rtl-written", lines.concat());
+    assert_eq!(
+        bench.succeed(&["clean", "o", "--yes"]),
+        "no run's files in o\n"
+    );
+    assert_eq!(bench.read("victim/w.vcd"), "mine");
+
+    // Neither a link nor a pipe is a list.
+    let list = bench.path("o/.motion-rtl-written");
+    let run = [
+        &["o/line.hpgl", "--out", "o", "--to", "100", "-q"],
+        &SHORT[..],
+    ]
+    .concat();
+    bench.write("victim/notes", "precious");
+    fs::remove_file(&list).unwrap();
+    symlink(bench.path("victim/notes"), &list).unwrap();
+    bench.succeed(&run);
+    assert_eq!(bench.read("victim/notes"), "precious");
+    fs::remove_file(&list).unwrap();
+    assert!(
+        Command::new("mkfifo")
+            .arg(&list)
+            .status()
+            .unwrap()
+            .success()
+    );
+    bench.succeed(&run);
+    assert_eq!(
+        bench.succeed(&["clean", "o", "--yes"]),
+        "no run's files in o\n"
+    );
 }
