@@ -28,9 +28,10 @@ const NO_VALUE: &str = "?";
 pub type Source = serde_path_to_error::Error<toml::de::Error>;
 
 /// A key of a circuit with its values.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 pub struct Key {
     /// Dotted name.
+    #[serde(rename = "key")]
     pub name: String,
     /// Value in the full circuit; `None` if it is not set.
     pub full: Option<String>,

@@ -75,7 +75,7 @@ impl<'de, S: Settings> Visitor<'de> for Root<S> {
             let name = S::CIRCUIT.name();
             let problem = match &S::CIRCUIT.others_with(key)[..] {
                 [] => "unknown key".to_owned(),
-                others => format!("is a key of {}, not of {name}", others.join(" and ")),
+                others => format!("is a key of {}, not of {name}", others.join(", ")),
             };
             let names = keys.iter().map(|key| key.name);
             unknown(

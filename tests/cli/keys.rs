@@ -181,7 +181,7 @@ fn keys_are_printed_with_type_unit_default_range_and_meaning() {
     let names = bench.run(&["keys"]);
     assert_eq!(names.code, 0);
     assert!(
-        names.stdout.lines().any(|name| name == "machine"),
+        names.stdout.lines().any(|name| name == "  machine"),
         "{}",
         names.stdout
     );
@@ -197,7 +197,8 @@ fn keys_are_printed_with_type_unit_default_range_and_meaning() {
         assert!(text.contains(lines), "{lines}\n{text}");
     }
     let rows = bench.json(&["keys", "machine"]);
-    let row = rows
+    assert_eq!(rows["version"], 1);
+    let row = rows["scenario"]
         .as_array()
         .unwrap()
         .iter()
@@ -213,11 +214,50 @@ fn keys_are_printed_with_type_unit_default_range_and_meaning() {
             "about": "CK of the lead-angle compensator.",
         })
     );
-    bench.refuse(
+    let refused = |arguments: &[&str], problem: &str| {
+        bench.refuse_with(arguments, |said| assert!(said.contains(problem), "{said}"));
+    };
+    refused(
         &["keys", "machin"],
-        "NAME: no job is called machin; allowed: machine is the nearest; one of pulse_interpolator, \
-         linear_interpolator, lead_angle, arc_generator, trajectory_controller, machine",
+        "NAME: no job or circuit is called machin; did you mean machine?; allowed: pulse_interpolator, ",
     );
+    refused(
+        &["keys", "compensator", "--json-schema"],
+        "NAME: no job is called compensator; allowed: pulse_interpolator, linear_interpolator, ",
+    );
+}
+
+/// Names of circuits, and those that a job has too.
+#[test]
+fn circuits_have_their_keys_listed() {
+    let bench = Bench::new();
+    let text = bench.succeed(&["keys", "compensator"]);
+    for line in [
+        "widths.position = 24, small: 4",
+        "variant.detector = incremental",
+    ] {
+        assert!(text.lines().any(|own| own == line), "{line}: {text}");
+    }
+    let json = bench.json(&["keys", "compensator"]);
+    let position = json!({"key": "widths.position", "full": "24", "small": "4"});
+    assert!(
+        json["circuit"].as_array().unwrap().contains(&position),
+        "{json}"
+    );
+    assert_eq!(json["scenario"], Value::Null);
+    let both = bench.json(&["keys", "machine"]);
+    assert!(both["scenario"].is_array() && both["circuit"].is_array());
+    let text = bench.succeed(&["keys", "machine"]);
+    assert!(
+        text.starts_with("keys of a scenario\n\ncircuit (required)"),
+        "{text}"
+    );
+    assert!(text.contains("\nkeys of the circuit\n\n"), "{text}");
+    let names = bench.json(&["keys"]);
+    assert_eq!(names["jobs"].as_array().unwrap().len(), 6);
+    let list = bench.json(&["list"]);
+    let count = list["circuits"].as_array().unwrap().len();
+    assert_eq!(names["circuits"].as_array().unwrap().len(), count);
 }
 
 /// Keys of a scenario that moves to another circuit.

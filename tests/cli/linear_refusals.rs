@@ -37,7 +37,7 @@ fn bad_overrides_are_refused() {
     const PAIR: &str = "allowed: a list of two numbers, of X and of Y";
     let cases = [
         ("feed=1", format!("feed: unknown key; allowed: `feed_mm_per_min` is the nearest; {KEYS}")),
-        ("steps_per_mm=[80,80]", format!("steps_per_mm: is a key of pulse_interpolator and machine, not of linear_interpolator; allowed: {KEYS}")),
+        ("steps_per_mm=[80,80]", format!("steps_per_mm: is a key of pulse_interpolator, machine, not of linear_interpolator; allowed: {KEYS}")),
         ("variant=safe", "variant: unknown variant `safe`; allowed: one of `floor`, `truncating`, `centred`".into()),
         ("master=z", "master: unknown variant `z`; allowed: one of `longer`, `x`, `y`".into()),
         ("short_moves=slow", "short_moves: unknown variant `slow`; allowed: `constant_acceleration` or `constant_time`".into()),

@@ -2,18 +2,20 @@
 
 mod schema;
 
-use super::{Failure, print, print_json};
+use super::{Failure, errors, print, print_json};
 use clap::Args;
 use motion_rtl::nearest::nearest;
+use motion_rtl::registry::{self, CATALOGUE, Entry};
 use motion_rtl::scenario::Runnable;
 use motion_rtl::settings::{Row, rows};
+use serde::Serialize;
 use std::fmt::Write as _;
 
 /// Arguments of `keys`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Job, named as by the key `circuit` of scenarios; by default the names of all jobs are
-    /// printed.
+    /// Job, named as by the key `circuit` of scenarios, or circuit of the catalogue; by default the
+    /// names of all are printed.
     name: Option<String>,
     /// Prints the keys as JSON.
     #[arg(long)]
@@ -23,30 +25,105 @@ pub struct Arguments {
     json_schema: bool,
 }
 
+/// Names without their keys.
+#[derive(Debug, Serialize)]
+struct Names {
+    version: u32,
+    jobs: Vec<&'static str>,
+    circuits: Vec<&'static str>,
+}
+
+/// Keys of one name, which a job and a circuit can have both.
+#[derive(Debug, Serialize)]
+struct Keys {
+    version: u32,
+    /// Keys of the job's scenarios.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scenario: Option<Vec<Row>>,
+    /// Keys of the circuit, for `--set` of `verilog`, `check` and others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    circuit: Option<Vec<registry::Key>>,
+}
+
 pub fn keys(arguments: &Arguments) -> Result<(), Failure> {
-    let names = || Runnable::ALL.map(Runnable::name).into_iter();
+    let jobs = Runnable::ALL.map(Runnable::name).to_vec();
+    let circuits: Vec<_> = CATALOGUE.iter().map(|entry| entry.name).collect();
+    let version = errors::VERSION;
     let Some(name) = &arguments.name else {
-        let names: Vec<_> = names().collect();
+        let lines = |names: &[&str]| format!("  {}\n", names.join("\n  "));
+        let text = format!("jobs\n{}\ncircuits\n{}", lines(&jobs), lines(&circuits));
+        let names = Names {
+            version,
+            jobs,
+            circuits,
+        };
         return match arguments.json {
             true => print_json(&names),
-            false => print(&(names.join("\n") + "\n")),
+            false => print(&text),
         };
     };
-    let Some(job) = Runnable::ALL.into_iter().find(|job| job.name() == name) else {
-        let near = nearest(name, names()).map(|near| format!("{near} is the nearest; "));
-        let names: Vec<_> = names().collect();
+    let job = Runnable::ALL.into_iter().find(|job| job.name() == name);
+    let circuit = registry::find(name).filter(|_| !arguments.json_schema);
+    if job.is_none() && circuit.is_none() {
+        let names = match arguments.json_schema {
+            true => jobs,
+            false => [jobs, circuits].concat(),
+        };
+        let near = nearest(name, names.iter().copied());
+        let near = near.map_or(String::new(), |near| format!("; did you mean {near}?"));
+        let kind = match arguments.json_schema {
+            true => "job",
+            false => "job or circuit",
+        };
         return Err(Failure::Argument {
             field: "NAME",
-            problem: format!("no job is called {name}"),
-            allowed: format!("{}one of {}", near.unwrap_or_default(), names.join(", ")),
+            problem: format!("no {kind} is called {name}{near}"),
+            allowed: names.join(", "),
         });
-    };
-    let (keys, defaults) = job.keys();
-    match (arguments.json_schema, arguments.json) {
-        (true, _) => print_json(&schema::of(job, &keys, &defaults)),
-        (_, true) => print_json(&rows(&keys, &defaults)),
-        _ => print(&text(&rows(&keys, &defaults))),
     }
+    if let (Some(job), true) = (job, arguments.json_schema) {
+        let (keys, defaults) = job.keys();
+        return print_json(&schema::of(job, &keys, &defaults));
+    }
+    let scenario = job.map(|job| {
+        let (keys, defaults) = job.keys();
+        rows(&keys, &defaults)
+    });
+    let keys = Keys {
+        version,
+        scenario,
+        circuit: circuit.map(Entry::keys),
+    };
+    match arguments.json {
+        true => print_json(&keys),
+        false => print(&keys.text()),
+    }
+}
+
+impl Keys {
+    fn text(&self) -> String {
+        let scenario = self.scenario.as_deref().map(text);
+        let circuit = self.circuit.as_deref().map(circuit_text);
+        match (scenario, circuit) {
+            (Some(scenario), Some(circuit)) => {
+                format!("keys of a scenario\n\n{scenario}\nkeys of the circuit\n\n{circuit}")
+            }
+            (scenario, circuit) => [scenario, circuit].into_iter().flatten().collect(),
+        }
+    }
+}
+
+/// Formats the keys of a circuit, a line each: the value as it is built, and that of the small one.
+fn circuit_text(keys: &[registry::Key]) -> String {
+    let value = |value: &Option<String>| value.clone().unwrap_or_else(|| "not set".to_owned());
+    let lines = keys.iter().map(|key| {
+        let (full, small) = (value(&key.full), value(&key.small));
+        match full == small {
+            true => format!("{} = {full}\n", key.name),
+            false => format!("{} = {full}, small: {small}\n", key.name),
+        }
+    });
+    lines.collect()
 }
 
 /// Formats the keys as text: two lines each, with an empty line between them.

@@ -299,8 +299,8 @@ fn keys_that_do_not_apply_are_told_all_at_once() {
         (
             2,
             "beside",
-            "is a key of pulse_interpolator and linear_interpolator and lead_angle and \
-                       arc_generator and trajectory_controller, not of machine",
+            "is a key of pulse_interpolator, linear_interpolator, lead_angle, arc_generator, \
+             trajectory_controller, not of machine",
         ),
         (3, "rest_ms", "is a key of lead_angle, not of machine"),
         (4, "ck_tiks", "unknown key"),
