@@ -5,6 +5,7 @@ use clap::Args;
 use motion_rtl::nearest::nearest;
 use motion_rtl::registry::{AnyModel, Base, CATALOGUE, Entry, Pair, Refused, find};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use std::fmt;
 
 /// Changed keys of a circuit.
@@ -61,7 +62,10 @@ pub fn refused(entry: &Entry, refused: Refused) -> Failure {
         Refused::Pairs(wrong) => Failure::Pairs(wrong),
         Refused::Values(problem) => Failure::Argument {
             field: "--set",
-            problem: format!("{}: {problem}", entry.name),
+            problem: match problem.starts_with(entry.name) {
+                true => problem.clone(),
+                false => format!("{}: {problem}", entry.name),
+            },
             allowed: "values that go together".to_owned(),
         },
         Refused::NoProof => Failure::Argument {
@@ -103,6 +107,14 @@ impl Changes {
                 problem: format!("{text:?} gives no key a value"),
                 allowed: format!("KEY=VALUE, {new}"),
             })?);
+        }
+        let mut keys = BTreeSet::new();
+        if let Some(twice) = pairs.iter().find(|pair| !keys.insert(pair.key.clone())) {
+            return Err(Failure::Argument {
+                field: "--set",
+                problem: format!("{} is given twice", twice.key),
+                allowed: "one value of a key".to_owned(),
+            });
         }
         Ok(pairs)
     }

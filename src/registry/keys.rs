@@ -1,6 +1,8 @@
 //! Keys of circuits: how a circuit is made from its full or small value and `key=value` pairs.
 
 use super::entry::{Base, Entry, Made};
+use crate::engine::EngineError;
+use crate::hdl::Wrong;
 use crate::nearest::nearest;
 use crate::settings::{Pair, value};
 use toml::de::DeTable;
@@ -96,8 +98,31 @@ pub(super) fn made(entry: &Entry, base: Base, pairs: &[Pair]) -> Result<Made, Re
         }
         Ok(made) => match made.model.model() {
             Ok(_) => Ok(made),
-            Err(error) => Err(Refused::Values(error.to_string())),
+            Err(error) => Err(Refused::Values(without_sites(&error))),
         },
+    }
+}
+
+/// Most mistakes of a circuit that are listed.
+const MOST_MISTAKES: usize = 4;
+
+/// What is wrong with a circuit, without the places in its source: the caller changes keys, not code.
+fn without_sites(error: &EngineError) -> String {
+    let EngineError::Circuit(Wrong(mistakes)) = error else {
+        return error.to_string();
+    };
+    let mut lines: Vec<String> = Vec::new();
+    for mistake in mistakes {
+        let line = format!("{}: {}", mistake.path, mistake.what);
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    let more = lines.len().saturating_sub(MOST_MISTAKES);
+    lines.truncate(MOST_MISTAKES);
+    match more {
+        0 => lines.join("; "),
+        more => format!("{}; and {more} more", lines.join("; ")),
     }
 }
 

@@ -204,10 +204,18 @@ fn widths_and_numbers_that_are_not_taken_are_refused() {
     let bench = Bench::new();
     bench.refuse(
         &verilog("enable_counter", &["--width", "0", "--out", "v"]),
-        "--set: enable_counter: src/circuits/blocks/enable_counter.rs:29:1: enable_counter: `period` has \
-         0 bits; a word has 1 to 64\\nsrc/circuits/blocks/enable_counter.rs:29:1: enable_counter: `count` \
-         has 0 bits; a word has 1 to 64; allowed: values that go together",
+        "--set: enable_counter: `period` has 0 bits; a word has 1 to 64; enable_counter: `count` has 0 \
+         bits; a word has 1 to 64; allowed: values that go together",
     );
+    for twice in [
+        ["--width", "5", "--set", "width=6"],
+        ["--set", "width=5", "--set", "width=6"],
+    ] {
+        bench.refuse(
+            &verilog("enable_counter", &[&twice[..], &["--out", "v"]].concat()),
+            "--set: width is given twice; allowed: one value of a key",
+        );
+    }
     bench.refuse(
         &verilog("unit_law", &["--with", "1", "--out", "v"]),
         "--with: takes no numbers; allowed: values by their keys, --set variant=safe; see `list unit_law`",
