@@ -3,7 +3,7 @@
 use super::chosen::Chosen;
 use super::export::Export;
 use super::files::Files;
-use super::{Failure, print};
+use super::{Failure, print, warn};
 use clap::Args;
 use motion_rtl::check::{Drive, Untoggled};
 use motion_rtl::hdl::Role;
@@ -94,6 +94,13 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
     }
     for path in files.commit()? {
         let _ = writeln!(text, "{path}");
+    }
+    let testbench = arguments.out.join(format!("{}_tb.v", circuit.name()));
+    if arguments.testbench.is_none() && testbench.exists() {
+        warn(&format!(
+            "{} is of an earlier export and need not fit this one",
+            testbench.display()
+        ));
     }
     print(&text)
 }

@@ -25,6 +25,15 @@ fn a_module_each_is_written_and_named() {
 }
 
 #[test]
+fn a_testbench_of_an_earlier_export_is_told() {
+    let bench = Bench::new();
+    bench.succeed(&verilog("enable_counter", &TESTBENCH));
+    let done = bench.run(&verilog("enable_counter", &["--width", "8", "--out", "v"]));
+    let text = "warning: v/enable_counter_tb.v is of an earlier export and need not fit this one\n";
+    assert_eq!((done.code, done.stderr.as_str()), (0, text));
+}
+
+#[test]
 fn a_testbench_comes_with_its_stimulus_and_golden_waves() {
     let bench = Bench::new();
     let said = bench.succeed(&verilog("enable_counter", &TESTBENCH));
