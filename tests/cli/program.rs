@@ -301,7 +301,7 @@ fn every_example_runs() {
         let line = line.replace("waves/", "shipped/");
         let arguments = line
             .split_whitespace()
-            .filter(|word| !word.starts_with('<'));
+            .take_while(|word| !word.starts_with(['<', '>']));
         let arguments: Vec<_> = arguments.collect();
         let input = line.split_once('<').map(|(_, file)| bench.read(file));
         let (code, _, said) = fed(&bench, &arguments, &input.unwrap_or_default());

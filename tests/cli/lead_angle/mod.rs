@@ -356,7 +356,7 @@ fn the_conventional_system_can_be_in_the_waves() {
         let set = format!("lead={lead}");
         let run = ["run", "--beside", "s.toml", "--to", "3000", "--set", &set];
         let summary = bench.json(&run);
-        assert_eq!(summary["lead"], lead);
+        assert_eq!(summary["settings"]["lead"], lead);
         let systems = list(&summary, "systems").iter();
         let own: Vec<_> = systems.filter(|system| system["own"] == true).collect();
         assert_eq!((own.len(), &own[0]["name"]), (1, &json!(name)));

@@ -41,7 +41,7 @@ fn each_axis_may_have_its_own_gains() {
     ];
     let summary = bench.json(&run);
     assert_eq!(summary["settings"]["k1_per_s"], json!([50.0, 40.0]));
-    assert_eq!(summary["k2_per_s"], json!(200.0));
+    assert_eq!(summary["settings"]["k2_per_s"], json!(200.0));
     // F·sin·cos of the lags' difference, but for the words of the gains.
     let exact = 50.0 * 0.48 * (1.0 / 40.0 - 1.0 / 50.0) * 1e3;
     let contour = |correction| number(of(&summary, correction), "/model/contour_max_um");

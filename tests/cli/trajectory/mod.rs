@@ -63,28 +63,20 @@ fn the_circle_is_what_closed_forms_say() {
             "circuit",
             "clock_hz",
             "complaints",
-            "contour_tolerance_mm",
-            "correction",
             "corrections",
-            "counts_per_mm",
             "exact",
             "feedback_gains",
             "files",
-            "inertia_factor",
             "input",
-            "k1_per_s",
-            "k2_per_s",
-            "load_torque",
             "loading_ticks",
             "path",
-            "period_ms",
             "period_ticks",
             "period_ticks_needed",
             "periods",
             "plan",
-            "rounding",
             "seconds",
             "segments",
+            "settings",
             "ticks",
             "vcd_window",
             "version",
@@ -343,7 +335,7 @@ fn the_correction_of_the_waves_is_chosen() {
     for correction in ["none", "steady", "feedback", "vector"] {
         let bench = with(&format!("correction = \"{correction}\"\n{quarter}"));
         let run = bench.json(&["run", "--beside", "s.toml", "--only", only, "--out", "o"]);
-        assert_eq!(run["correction"], correction);
+        assert_eq!(run["settings"]["correction"], correction);
         let shown = list(&run, "corrections").iter();
         let shown: Vec<_> = shown
             .filter(|row| row["in_waves"] == true)
@@ -446,7 +438,8 @@ fn the_files_of_a_run() {
         "--out",
         "o",
     ]);
-    let files = list(&verilog, "files");
+    let files = paths(&verilog);
+    let files = files.as_array().unwrap();
     assert!(files.contains(&json!("o/trajectory_controller.v")));
     assert!(files.contains(&json!("o/trajectory_controller.stimulus")));
 }
