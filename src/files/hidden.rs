@@ -68,8 +68,8 @@ pub(super) fn rename(from: &Path, to: &Path) -> io::Result<()> {
 /// Opens a regular file. Follows no link, and never waits for the other end of a pipe.
 ///
 /// # Errors
-/// Returns [`NOT_REGULAR`] as [`io::ErrorKind::InvalidInput`] if the name belongs to something
-/// else.
+/// The name belongs to something else ([`io::ErrorKind::InvalidInput`]), or the file cannot be
+/// opened.
 pub fn open(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
     #[cfg(unix)]
     {

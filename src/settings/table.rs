@@ -13,7 +13,7 @@ use std::ops::RangeInclusive;
 /// Names of axes for errors.
 const AXIS_NAMES: [&str; 4] = ["x", "y", "z", "w"];
 
-/// A struct of settings, as [`settings!`] makes it.
+/// A struct of settings, as the macro `settings!` makes it.
 pub trait Table: Sized {
     /// Its keys: its own, then those of each group.
     const KEYS: &'static [&'static [Key]];
