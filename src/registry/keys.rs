@@ -106,7 +106,7 @@ pub(super) fn made(entry: &Entry, base: Base, pairs: &[Pair]) -> Result<Made, Re
 /// Most mistakes of a circuit that are listed.
 const MOST_MISTAKES: usize = 4;
 
-/// What is wrong with a circuit, without the places in its source: the caller changes keys, not code.
+/// Lists the mistakes of a circuit without their places in the source: the caller changes keys, not code.
 fn without_sites(error: &EngineError) -> String {
     let EngineError::Circuit(Wrong(mistakes)) = error else {
         return error.to_string();
