@@ -14,6 +14,12 @@ pub fn nearest<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) -> Op
     (distance <= most).then_some(name)
 }
 
+/// Returns "; did you mean X?" with the nearest name, for the end of a problem; nothing if none is
+/// near enough.
+pub fn did_you_mean<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) -> String {
+    nearest(wanted, names).map_or_else(String::new, |near| format!("; did you mean {near}?"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::nearest;

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use clap::Args;
-use motion_rtl::nearest::nearest;
+use motion_rtl::nearest::did_you_mean;
 use motion_rtl::registry::{AnyModel, Base, CATALOGUE, Entry, Pair, Refused, find};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -37,8 +37,7 @@ pub struct Chosen {
 pub fn entry(name: &str) -> Result<&'static Entry, Failure> {
     find(name).ok_or_else(|| {
         let names = || CATALOGUE.iter().map(|entry| entry.name);
-        let near = nearest(name, names());
-        let near = near.map_or(String::new(), |near| format!("; did you mean {near}?"));
+        let near = did_you_mean(name, names());
         Failure::Argument {
             field: "CIRCUIT",
             problem: format!("there is no {name}{near}"),

@@ -2,7 +2,7 @@
 
 use super::files::size;
 use super::written::Written;
-use super::{Failure, print, warn};
+use super::{Failure, print, voice, warn};
 use clap::Args;
 use std::fmt::Write as _;
 use std::fs;
@@ -69,10 +69,11 @@ pub fn clean(arguments: &Arguments) -> Result<(), Failure> {
 
 /// Asks for consent to remove `count` files.
 fn agreed(count: usize) -> Result<bool, Failure> {
-    if !stdin().is_terminal() {
+    if !stdin().is_terminal() || voice::is_quiet() {
         return Err(Failure::Argument {
             field: "clean",
-            problem: "nobody can be asked: standard input is no terminal".into(),
+            problem: "nobody can be asked: standard input is no terminal, or --quiet is given"
+                .into(),
             allowed: "--yes to remove them, --dry-run to name them".into(),
         });
     }

@@ -1,7 +1,9 @@
 //! Input whose format is named on the command line: standard input, or a file with another extension.
 
 use clap::ValueEnum;
-use motion_rtl::input::{Drawing, Fault, Kind, LARGEST_FILE, Options, gcode, hpgl, read_bytes};
+use motion_rtl::input::{
+    Drawing, Fault, Kind, LARGEST_FILE, Options, as_text, gcode, hpgl, read_bytes,
+};
 use std::io::{Read as _, stdin};
 use std::path::Path;
 
@@ -92,11 +94,7 @@ impl Given {
     /// # Errors
     /// The input is not UTF-8.
     pub fn text(&self) -> Result<&str, Fault> {
-        str::from_utf8(&self.bytes).map_err(|error| {
-            let valid = &self.bytes[..error.valid_up_to()];
-            let line = 1 + valid.iter().filter(|&&byte| byte == b'\n').count();
-            Fault::new(&self.name, line, "file", "not UTF-8", "a text in UTF-8")
-        })
+        as_text(&self.name, &self.bytes, "a scenario in TOML")
     }
 
     /// Reads the drawing or part program.

@@ -3,7 +3,7 @@
 use super::voice::{self, Voice};
 use super::{Failure, errors, help, limits, printed, signals, version};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use motion_rtl::nearest::nearest;
+use motion_rtl::nearest::did_you_mean;
 use std::ffi::OsString;
 use std::io::{Write as _, stderr};
 use std::path::Path;
@@ -132,8 +132,7 @@ fn with_run(mut words: Vec<OsString>) -> Result<Vec<OsString>, Failure> {
     }
     let is_path = word.starts_with('-') || word.contains(['.', '/', '\\']);
     if !is_path && !Path::new(&words[at]).exists() {
-        let near = nearest(&word, commands.iter().map(String::as_str));
-        let near = near.map_or(String::new(), |near| format!("; did you mean {near}?"));
+        let near = did_you_mean(&word, commands.iter().map(String::as_str));
         return Err(Failure::Argument {
             field: "COMMAND",
             problem: format!("there is no command {word}, and no file of that name{near}"),

@@ -4,6 +4,7 @@ use std::fmt;
 use std::fs::{File, Metadata};
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
+use std::str::Utf8Error;
 
 use crate::files;
 
@@ -284,12 +285,24 @@ pub fn read_string(path: &Path, allowed: &str) -> Result<String, Fault> {
 ///
 /// Returns the errors of [`read_bytes`], and an error with the line for bytes that are not UTF-8.
 pub fn read_string_of(path: &Path, most: u64, allowed: &str) -> Result<String, Fault> {
-    String::from_utf8(read_bytes(path, most)?).map_err(|error| {
-        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = 1 + valid.iter().filter(|&&byte| byte == b'\n').count();
-        let name = path.display().to_string();
-        Fault::new(&name, line, "file", "not UTF-8", allowed)
-    })
+    let name = path.display().to_string();
+    String::from_utf8(read_bytes(path, most)?)
+        .map_err(|error| not_utf8(&name, error.as_bytes(), error.utf8_error(), allowed))
+}
+
+/// Returns the bytes of a file called `name` as text; `allowed` describes what is expected.
+///
+/// # Errors
+///
+/// Bytes that are not UTF-8, with their line.
+pub fn as_text<'a>(name: &str, bytes: &'a [u8], allowed: &str) -> Result<&'a str, Fault> {
+    str::from_utf8(bytes).map_err(|error| not_utf8(name, bytes, error, allowed))
+}
+
+fn not_utf8(name: &str, bytes: &[u8], error: Utf8Error, allowed: &str) -> Fault {
+    let valid = &bytes[..error.valid_up_to()];
+    let line = 1 + valid.iter().filter(|&&byte| byte == b'\n').count();
+    Fault::new(name, line, "file", "not UTF-8", allowed)
 }
 
 #[cfg(test)]

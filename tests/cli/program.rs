@@ -107,6 +107,12 @@ fn standard_input_is_read_as_its_format_says() {
     );
     assert_eq!(code, 2);
     assert!(said.starts_with("error: <stdin>:"), "{said}");
+    let mut odd = b"circuit = \"machine\"\n# ".to_vec();
+    odd.extend([0xff, b'\n']);
+    bench.write("odd", odd);
+    let done = bench.run(&["odd", "--input-format", "toml"]);
+    let text = "error: odd:2: file: not UTF-8; allowed: a scenario in TOML\n";
+    assert_eq!((done.code, done.stderr.as_str()), (2, text));
     let (code, _, said) = fed(&bench, &["-"], LINE);
     let text = "error: <stdin>: file: has no extension; allowed: --input-format with one of toml, \
                 hpgl, gcode, csv\n";
@@ -326,6 +332,7 @@ fn clean_removes_what_runs_have_made_and_nothing_else() {
     assert_eq!(named.lines().count(), 2, "{named}");
     let done = bench.run(&["clean", "o"]);
     assert_eq!(done.code, 2, "nobody can be asked");
+    assert_eq!(bench.run(&["clean", "o", "-q"]).code, 2);
     let all = [
         "line.hpgl",
         "o/",

@@ -4,7 +4,7 @@ mod schema;
 
 use super::{Failure, errors, print, print_json};
 use clap::Args;
-use motion_rtl::nearest::nearest;
+use motion_rtl::nearest::did_you_mean;
 use motion_rtl::registry::{self, CATALOGUE, Entry};
 use motion_rtl::scenario::Runnable;
 use motion_rtl::settings::{Row, rows};
@@ -69,8 +69,7 @@ pub fn keys(arguments: &Arguments) -> Result<(), Failure> {
             true => jobs,
             false => [jobs, circuits].concat(),
         };
-        let near = nearest(name, names.iter().copied());
-        let near = near.map_or(String::new(), |near| format!("; did you mean {near}?"));
+        let near = did_you_mean(name, names.iter().copied());
         let kind = match arguments.json_schema {
             true => "job",
             false => "job or circuit",
