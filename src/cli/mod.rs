@@ -4,6 +4,7 @@ mod arc;
 mod check;
 mod chosen;
 mod clean;
+mod columns;
 mod compare;
 mod connections;
 mod errors;

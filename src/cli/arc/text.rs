@@ -3,6 +3,7 @@
 use super::mechanism;
 use super::rows::{ArcRow, BlendRow, LineRow};
 use super::summary::Summary;
+use crate::cli::columns::Table;
 use crate::cli::report::{Outcome, Report};
 use crate::cli::rows::{fixed, more, or_dash, table, worst};
 use motion_rtl::input::Point;
@@ -121,25 +122,14 @@ impl Summary {
         if rows.is_empty() {
             return Ok(());
         }
-        let heads = [
-            ("line: piece", 0),
-            ("line", 0),
-            ("length mm", 9),
-            ("samples", 7),
-            ("mm/s", 8),
-            ("wanted", 8),
-        ];
-        let cells = rows.into_iter().map(|row| {
-            [
-                row.piece.to_string(),
-                or_dash(row.line),
-                fixed(row.length_mm, 3),
-                row.samples.to_string(),
-                fixed(row.speed_mm_per_s, 3),
-                fixed(row.speed_wanted_mm_per_s, 3),
-            ]
-        });
-        table(text, heads, cells)?;
+        Table::of(rows)
+            .col("line: piece", 0, |row| row.piece)
+            .col("line", 0, |row| or_dash(row.line))
+            .col("length mm", 9, |row| fixed(row.length_mm, 3))
+            .col("samples", 7, |row| row.samples)
+            .col("mm/s", 8, |row| fixed(row.speed_mm_per_s, 3))
+            .col("wanted", 8, |row| fixed(row.speed_wanted_mm_per_s, 3))
+            .write(text)?;
         more(text, left, "nearer to the wanted speed")
     }
 
@@ -182,25 +172,13 @@ impl Summary {
         if self.operations.is_empty() {
             return Ok(());
         }
-        let heads = [
-            ("a sample costs            ", 0),
-            ("multiplications", 0),
-            ("additions", 0),
-            ("sines, cosines", 0),
-            ("ticks", 0),
-        ];
-        let cells = self.operations.iter().map(|row| {
-            [
-                format!("{:<26}", row.method),
-                row.multiplications.to_string(),
-                row.additions.to_string(),
-                row.sines_and_cosines.to_string(),
-                or_dash(row.ticks),
-            ]
-        });
-        table(text, heads, cells)?;
-        text.push('\n');
-        Ok(())
+        Table::of(&self.operations)
+            .left("a sample costs", 26, |row| row.method)
+            .col("multiplications", 0, |row| row.multiplications)
+            .col("additions", 0, |row| row.additions)
+            .col("sines, cosines", 0, |row| row.sines_and_cosines)
+            .col("ticks", 0, |row| or_dash(row.ticks))
+            .write_apart(text)
     }
 }
 
