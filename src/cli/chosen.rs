@@ -46,6 +46,21 @@ pub fn entry(name: &str) -> Result<&'static Entry, Failure> {
     })
 }
 
+/// Returns the circuits with these names, each once; all circuits if there are no names.
+pub fn entries(names: &[String]) -> Result<Vec<&'static Entry>, Failure> {
+    let mut entries: Vec<&Entry> = Vec::new();
+    for name in names {
+        let named = entry(name)?;
+        if !entries.iter().any(|other| other.name == named.name) {
+            entries.push(named);
+        }
+    }
+    if entries.is_empty() {
+        entries.extend(CATALOGUE);
+    }
+    Ok(entries)
+}
+
 /// Refuses changed keys of all circuits at once.
 pub fn no_circuit(changes: &Changes, command: &str) -> Failure {
     Failure::Argument {

@@ -1,6 +1,6 @@
 //! A scenario ready to be run, of whatever circuit.
 
-use super::run::Arguments;
+use super::arguments::Arguments;
 use super::source::Source;
 use super::waves_of::{self, System};
 use super::{Failure, arc, lead_angle, linear, machine, pulse, trajectory};

@@ -1,6 +1,7 @@
 //! The commands.
 
 mod arc;
+mod arguments;
 mod check;
 mod chosen;
 mod clean;
@@ -31,10 +32,12 @@ mod pulse;
 mod report;
 mod rows;
 mod run;
+mod setup;
 #[cfg(feature = "shell")]
 mod shell;
 mod shipped;
 mod signals;
+mod simulate;
 mod source;
 mod table;
 mod thinned;
@@ -46,6 +49,7 @@ mod verilog;
 mod version;
 mod viewer;
 mod voice;
+mod wave_format;
 mod waves_of;
 mod written;
 

@@ -1,7 +1,6 @@
 //! `mutate`: single faults in circuits, and what finds them.
 
-use super::check::entries;
-use super::chosen::{self, Changes};
+use super::chosen::{self, Changes, entries};
 use super::notes::NOTES;
 use super::{Failure, print, print_json, threads};
 use clap::Args;

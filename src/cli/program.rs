@@ -30,7 +30,7 @@ struct Arguments {
 enum Command {
     /// Runs a scenario, a drawing or a part program; writes waves, save file and picture.
     #[command(after_help = help::RUN, after_long_help = help::run())]
-    Run(super::run::Arguments),
+    Run(super::arguments::Arguments),
     /// Compiles a drawing or a part program into the pattern memory's table.
     #[command(after_help = help::TABLE)]
     Table(super::table::Arguments),
@@ -158,7 +158,7 @@ fn first_word(words: &[OsString]) -> Option<usize> {
 
 fn run(command: Option<Command>) -> Result<(), Failure> {
     match command {
-        None => super::run::run(&super::run::Arguments::default()),
+        None => super::run::run(&super::arguments::Arguments::default()),
         Some(Command::Run(arguments)) => super::run::run(&arguments),
         Some(Command::Table(arguments)) => super::table::table(&arguments),
         Some(Command::Check(arguments)) => super::check::check(&arguments),

@@ -136,17 +136,15 @@ pub struct Work {
     pub runs: u64,
     /// Approximate duration of all runs without waves, in s.
     pub seconds: f64,
-    /// Ticks that go into the waves.
-    pub in_waves: u64,
 }
 
-/// Announces runs, and the ticks and approximate duration of long ones.
-pub fn run(subject: &str, work: Work) {
+/// Announces runs, and the ticks and approximate duration of long ones; `in_waves` ticks go into
+/// the waves.
+pub fn run(subject: &str, work: Work, in_waves: u64) {
     let Work {
         ticks,
         runs,
         seconds,
-        in_waves,
     } = work;
     let seconds = seconds + in_waves as f64 * WAVES_NS * 1e-9;
     if seconds >= LONG_S && !voice::is_quiet() {

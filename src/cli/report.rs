@@ -1,10 +1,9 @@
 //! End of every run: the fields that all summaries share, and their output.
 
 use super::files::{Files, Named};
-use super::run::Arguments;
+use super::setup::Setup;
 use super::viewer::Viewer;
 use super::{Failure, errors, print, print_json, progress, warn};
-use motion_rtl::trace::Options;
 use serde::Serialize;
 use std::fmt::{self, Write as _};
 use std::ops::Range;
@@ -91,12 +90,10 @@ pub trait Report: Serialize {
 }
 
 /// Ends a run: names its files, prints its summary, fails where it complains.
-pub fn conclude(
-    arguments: &Arguments,
-    options: &Options,
-    files: Files,
-    mut summary: impl Report,
-) -> Result<(), Failure> {
+pub fn conclude(setup: &Setup<'_>, files: Files, mut summary: impl Report) -> Result<(), Failure> {
+    let Setup {
+        arguments, options, ..
+    } = setup;
     let viewer = arguments.open.then(Viewer::find).transpose()?;
     let Range { start, end } = options.ticks;
     let outcome = summary.outcome();

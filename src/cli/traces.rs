@@ -6,14 +6,10 @@ use super::export::Export;
 use super::files::Files;
 use super::plan::{Noted, of_job};
 use super::progress::Part;
-use super::run::{Arguments, clock};
-use clap::ValueEnum;
+use super::setup::Setup;
 use motion_rtl::files::AtomicFile;
-use motion_rtl::hdl::{Circuit, Described, Model, Observer, RunError, Without};
-use motion_rtl::scenario::Loaded;
-use motion_rtl::trace::{
-    Clock, LayoutError, Options, OutputFile, StimulusFile, WaveFile, WaveFormat, gtkw,
-};
+use motion_rtl::hdl::{Circuit, Described, Observer, RunError, Without};
+use motion_rtl::trace::{Clock, LayoutError, OutputFile, StimulusFile, WaveFile, gtkw};
 use motion_rtl::verilog::Verilog;
 use std::io;
 use std::ops::Range;
@@ -24,48 +20,19 @@ const MOST_SCOPES: usize = 40;
 
 /// The files of a run.
 pub struct Traces<'a> {
-    stem: &'a str,
-    format: Format,
-    options: &'a Options,
+    setup: &'a Setup<'a>,
     clock: Clock,
     /// Every signal at every tick.
-    pub waves: Option<WaveFile>,
-    /// The inputs.
-    pub stimulus: Option<StimulusFile<AtomicFile>>,
-    /// The outputs.
-    outputs: Option<OutputFile<AtomicFile>>,
+    waves: Option<WaveFile>,
+    /// The inputs of the circuit alone.
+    stimulus: Option<Without<StimulusFile<AtomicFile>>>,
+    /// The outputs of the circuit alone.
+    outputs: Option<Without<OutputFile<AtomicFile>>>,
     /// The inputs once more, for the plan.
-    pub noted: Option<Noted>,
+    noted: Option<Noted>,
+    progress: Part,
     // Last, as their directory can go only when the files above are gone.
     files: Files,
-}
-
-/// A format of waves.
-#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    /// Text that every waveform viewer reads.
-    #[default]
-    Vcd,
-    /// GTKWave's own, a fifth to a hundredth of the bytes.
-    Fst,
-}
-
-impl From<Format> for WaveFormat {
-    fn from(format: Format) -> Self {
-        match format {
-            Format::Vcd => WaveFormat::Vcd,
-            Format::Fst => WaveFormat::Fst,
-        }
-    }
-}
-
-impl Format {
-    fn extension(self) -> &'static str {
-        match self {
-            Format::Vcd => "vcd",
-            Format::Fst => "fst",
-        }
-    }
 }
 
 /// Window of the save file.
@@ -81,17 +48,27 @@ pub struct Focus {
     pub overview: &'static [&'static str],
 }
 
+/// End of a run.
+#[derive(Debug, Clone, Copy)]
+pub struct End {
+    /// Ticks of the run.
+    pub ticks: u64,
+    /// Window of the save file.
+    pub focus: Focus,
+}
+
 impl<'a> Traces<'a> {
     /// Begins the requested files of a run of about `ticks` ticks. `printed` is the circuit to
     /// print as Verilog: the same one, or the part without its plant.
     pub fn begin(
         (circuit, printed): (&impl Described, &impl Described),
-        arguments: &Arguments,
-        (loaded, stem): (&Loaded, &'a str),
-        options: &'a Options,
+        setup: &'a Setup<'a>,
         ticks: u64,
     ) -> Result<Self, Failure> {
-        let clock = clock(arguments, loaded, ticks, options)?;
+        let clock = setup.clock(ticks)?;
+        let Setup {
+            arguments, stem, ..
+        } = *setup;
         let directory = arguments.out.as_deref().unwrap_or(Path::new("waves"));
         let mut files = Files::begin(directory, stem)?;
         let format = arguments.format;
@@ -99,7 +76,7 @@ impl<'a> Traces<'a> {
             true => None,
             false => {
                 let file = files.create(format.extension())?;
-                let waves = WaveFile::new(file, format.into(), circuit, clock, options);
+                let waves = WaveFile::new(file, format.into(), circuit, clock, &setup.options);
                 Some(waves.map_err(refused)?)
             }
         };
@@ -108,76 +85,58 @@ impl<'a> Traces<'a> {
             false => (None, None),
         };
         Ok(Traces {
-            stem,
-            format,
-            options,
+            setup,
             clock,
             files,
             waves,
-            stimulus,
-            outputs,
+            stimulus: stimulus.map(Without),
+            outputs: outputs.map(Without),
             noted: arguments.plan.then(Noted::default),
+            progress: Part::default(),
         })
     }
 
-    /// Returns true if nothing of the run is written.
-    pub fn is_empty(&self) -> bool {
-        self.waves.is_none() && self.stimulus.is_none() && self.noted.is_none()
-    }
-
-    /// Plays a circuit, observed by all files, and closes them; `end` returns the window of the
-    /// save file and the ticks of the run.
-    pub fn play<C: Circuit, T>(
-        mut self,
-        model: &Model,
-        play: impl FnOnce(&mut dyn Observer<C>) -> Result<T, Failure>,
-        end: impl FnOnce(&T) -> (Focus, u64),
-    ) -> Result<(T, Files), Failure> {
-        let mut progress = Part::default();
-        let stimulus = self.stimulus.as_mut().map(Without);
-        let outputs = self.outputs.as_mut().map(Without);
-        let played = play(&mut (
+    /// Returns the observer that feeds all files, and the progress.
+    pub fn observer<C: Circuit>(&mut self) -> impl Observer<C> {
+        (
             self.waves.as_mut(),
-            (stimulus, outputs),
+            (self.stimulus.as_mut(), self.outputs.as_mut()),
             self.noted.as_mut(),
-            &mut progress,
-        ))?;
-        let (focus, ticks) = end(&played);
-        let files = self.finish(model, &focus, ticks)?;
-        Ok((played, files))
+            &mut self.progress,
+        )
     }
 
-    /// Closes the files after `ticks` ticks and writes the save file; refuses a window outside the
-    /// run.
-    pub fn finish(
-        mut self,
-        circuit: &impl Described,
-        focus: &Focus,
-        ticks: u64,
-    ) -> Result<Files, Failure> {
-        no_such_tick(self.options, ticks)?;
+    /// Closes the files and writes the save file; refuses a window outside the run.
+    pub fn finish(mut self, circuit: &impl Described, end: &End) -> Result<Files, Failure> {
+        let End { ticks, focus } = end;
+        self.setup.check_window(*ticks)?;
         if let Some(stimulus) = self.stimulus {
-            self.files.push(stimulus.finish()?);
+            self.files.push(stimulus.0.finish()?);
         }
         if let Some(outputs) = self.outputs {
-            self.files.push(outputs.finish()?);
+            self.files.push(outputs.0.finish()?);
         }
         if let Some(Noted(inputs)) = self.noted {
             self.files.write("plan.txt", &of_job(circuit, &inputs)?)?;
         }
         if let Some(waves) = self.waves {
-            let Range { start, end } = self.options.ticks;
+            let Setup {
+                arguments,
+                stem,
+                options,
+                ..
+            } = self.setup;
+            let Range { start, end } = options.ticks;
             let first = match focus.action < end {
                 true => focus.action.saturating_sub(focus.before).max(start),
                 false => start,
             };
             let end = first.saturating_add(focus.shown);
-            let window = first..end.min(ticks.max(first.saturating_add(1)));
+            let window = first..end.min(*ticks.max(&first.saturating_add(1)));
             // First, as both take memory for every word of the circuit's memories.
             let file = waves.finish().map_err(RunError::Waves)?;
             self.files.push(file);
-            let dump = format!("{}.{}", self.stem, self.format.extension());
-            let options = self.options;
+            let dump = format!("{stem}.{}", arguments.format.extension());
             let save =
                 gtkw::save_file_with(circuit, self.clock, options, &dump, window, focus.overview);
             self.files.write("gtkw", &save.map_err(io::Error::from)?)?;
@@ -235,16 +194,4 @@ fn outermost(scopes: &[String]) -> String {
     let shown: Vec<_> = scopes.iter().filter(outer).map(String::as_str).collect();
     let within = scopes.len() - shown.len();
     format!("{}, and {within} within these", shown.join(", "))
-}
-
-/// Refuses a window that begins after the end of the run.
-pub fn no_such_tick(options: &Options, ticks: u64) -> Result<(), Failure> {
-    if options.ticks.start < ticks {
-        return Ok(());
-    }
-    Err(Failure::Argument {
-        field: "--from",
-        problem: format!("is {}", options.ticks.start),
-        allowed: format!("0 to {}, the last tick of the run", ticks.saturating_sub(1)),
-    })
 }

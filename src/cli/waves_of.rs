@@ -1,14 +1,15 @@
 //! `run --waves-of`: one system of a scenario's summary with its waves.
 
 use super::Failure;
+use super::arguments::Arguments;
 use super::files::Files;
-use super::progress::{self, Work};
+use super::progress::Work;
 use super::report::{Outcome, Report, conclude};
-use super::run::{Arguments, in_waves, options};
-use super::traces::{Focus, Traces};
+use super::setup::Setup;
+use super::simulate::{Stage, with_waves};
+use super::traces::End;
 use motion_rtl::hdl::{Circuit, Model, Observer};
 use motion_rtl::scenario::Loaded;
-use motion_rtl::trace::Options;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -24,23 +25,13 @@ pub struct System<'a> {
 }
 
 /// Plays a system; gives the circuit's name too.
-type Play<'a> = Box<dyn FnOnce(&Stage<'_>) -> Result<Shown, Failure> + 'a>;
+type Play<'a> = Box<dyn FnOnce(&Setup<'_>) -> Result<Shown, Failure> + 'a>;
 type Shown = (&'static str, Ending, Files);
-
-/// Arguments and input of a system's run.
-struct Stage<'s> {
-    arguments: &'s Arguments,
-    options: &'s Options,
-    loaded: &'s Loaded,
-    stem: &'s str,
-}
 
 /// End of a system's run.
 pub struct Ending {
-    /// Ticks of the run.
-    pub ticks: u64,
-    /// Window of the save file.
-    pub focus: Focus,
+    /// End of its circuit's run.
+    pub end: End,
     /// Last position of each axis or body.
     pub position: BTreeMap<&'static str, i64>,
     /// Unit of the positions.
@@ -62,24 +53,23 @@ impl<'a> System<'a> {
         C: Circuit,
         P: FnOnce(&C, &mut dyn Observer<C>) -> Result<Ending, Failure>,
     {
-        let play = move |stage: &Stage<'_>| {
+        let play = move |setup: &Setup<'_>| {
             let (circuit, model, play) = make()?;
-            let scenario = (stage.loaded, stage.stem);
-            let shown = (&model, &circuit);
-            let options = stage.options;
-            let traces = Traces::begin(shown, stage.arguments, scenario, options, ticks)?;
-            let work = Work {
-                ticks,
-                runs: 1,
-                seconds: ticks as f64 * TICK_S,
-                in_waves: in_waves(stage.arguments, options, ticks),
+            let stage = Stage {
+                circuit: &circuit,
+                model: &model,
+                subject: setup.stem,
+                work: Work {
+                    ticks,
+                    runs: 1,
+                    seconds: ticks as f64 * TICK_S,
+                },
             };
-            progress::run(stage.stem, work);
-            let (ending, files) = traces.play(
-                &model,
-                |observer| play(&circuit, observer),
-                |ending: &Ending| (ending.focus, ending.ticks),
-            )?;
+            let (ending, files) = with_waves(setup, &stage, |observer| {
+                let ending = play(&circuit, observer)?;
+                let end = ending.end;
+                Ok((ending, end))
+            })?;
             Ok((model.name(), ending, files))
         };
         System {
@@ -147,20 +137,14 @@ pub fn run(
             allowed: keys.join(", "),
         });
     };
-    let scenario = &loaded.scenario;
-    let options = options(arguments, scenario.vcd_ticks())?;
-    let stage = Stage {
-        arguments,
-        options: &options,
-        loaded,
-        stem: &format!("{stem}_{wanted}"),
-    };
-    let (circuit, ending, files) = (system.play)(&stage)?;
+    let of_system = format!("{stem}_{wanted}");
+    let setup = Setup::new(arguments, loaded, &of_system)?;
+    let (circuit, ending, files) = (system.play)(&setup)?;
     let summary = Summary {
-        outcome: Outcome::new(circuit, stem, scenario.clock_hz(), ending.ticks),
+        outcome: Outcome::new(circuit, stem, loaded.scenario.clock_hz(), ending.end.ticks),
         system: system.name,
         end_position: ending.position,
         unit: ending.unit,
     };
-    conclude(arguments, &options, files, summary)
+    conclude(&setup, files, summary)
 }

@@ -19,18 +19,18 @@ pub use job::Job;
 pub use waves::systems;
 
 use super::Failure;
-use super::files::Files;
+use super::arguments::Arguments;
 use super::progress::{self, Work};
 use super::report::conclude;
-use super::run::{Arguments, in_waves, options};
-use super::traces::{Focus, Traces};
+use super::setup::Setup;
+use super::simulate::{Stage, with_waves};
+use super::traces::{End, Focus};
 use beside::Beside;
-use figures::{Figures, UnderWay};
+use figures::UnderWay;
 use motion_rtl::circuits::arc_generator::ArcGenerator;
 use motion_rtl::hdl::{Observer, RunError};
 use motion_rtl::jobs::arc_generator::conventional::Conventional as Method;
 use motion_rtl::jobs::arc_generator::job::{Command, Played, arc_generator, play_each};
-use motion_rtl::trace::Options;
 use picture::draw;
 use summary::Summary;
 
@@ -68,8 +68,31 @@ const OVERVIEW: [&str; 23] = [
 ];
 
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
-    let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
-    let ((played, mut figures), mut files) = simulate(arguments, job, &options)?;
+    let setup = Setup::new(arguments, &job.loaded, &job.stem)?;
+    let circuit = arc_generator(&job.settings);
+    let subject = job.drawing.as_ref();
+    let subject = subject.map_or(&job.stem, |drawing| &drawing.file);
+    let stage = Stage {
+        circuit: &circuit,
+        model: &waves::shown(&circuit, job.arm.is_some())?,
+        subject,
+        work: Work {
+            ticks: job.ticks_at_least(),
+            runs: 1,
+            seconds: job.prepared.samples() as f64 * SAMPLE_S,
+        },
+    };
+    let ((played, mut figures), mut files) = with_waves(&setup, &stage, |observer| {
+        let mut under_way = UnderWay::new(job);
+        let each = &mut |command| under_way.take(command);
+        let played = play(job, &circuit, observer, each)?;
+        let figures = under_way.finish();
+        let end = End {
+            ticks: played.ticks,
+            focus: window(job, figures.change.unwrap_or(0), &OVERVIEW),
+        };
+        Ok(((played, figures), end))
+    })?;
     progress::stage("the arcs by the conventional method");
     if job.loaded.scenario.beside() {
         figures.beside = Beside::run(job, Method::new, figures.blended.as_ref())?;
@@ -78,46 +101,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     progress::stage("summary and picture");
     files.write("svg", &draw(job, &figures))?;
     let summary = Summary::new(job, &played, &figures)?;
-    conclude(arguments, &options, files, summary)
-}
-
-/// Plays the path with its waves.
-fn simulate(
-    arguments: &Arguments,
-    job: &Job,
-    options: &Options,
-) -> Result<((Played, Figures), Files), Failure> {
-    let circuit = arc_generator(&job.settings);
-    let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
-    let shown = waves::shown(&circuit, job.arm.is_some())?;
-    let traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
-    let in_waves = in_waves(arguments, options, ticks);
-    let subject = job
-        .drawing
-        .as_ref()
-        .map_or(&job.stem, |drawing| &drawing.file);
-    progress::run(
-        subject,
-        Work {
-            ticks,
-            runs: 1,
-            seconds: job.prepared.samples() as f64 * SAMPLE_S,
-            in_waves,
-        },
-    );
-    traces.play(
-        &shown,
-        |observer| {
-            let mut under_way = UnderWay::new(job);
-            let each = &mut |command| under_way.take(command);
-            let played = play(job, &circuit, observer, each)?;
-            Ok((played, under_way.finish()))
-        },
-        |(played, figures)| {
-            let change = figures.change.unwrap_or(0);
-            (window(job, change, &OVERVIEW), played.ticks)
-        },
-    )
+    conclude(&setup, files, summary)
 }
 
 fn play(

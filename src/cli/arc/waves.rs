@@ -3,7 +3,7 @@
 use super::beside::{Planned, Run, runs, samples};
 use super::{Job, OVERVIEW, window};
 use crate::cli::Failure;
-use crate::cli::traces::Focus;
+use crate::cli::traces::{End, Focus};
 use crate::cli::waves_of::{Ending, System};
 use motion_rtl::circuits::arc_generator::{ArcGenerator, Conventional};
 use motion_rtl::hdl::{Circuit, Model, Observer, RunError, model, model_beside};
@@ -64,8 +64,10 @@ pub fn shown<C: Circuit>(circuit: &C, arm: bool) -> Result<Model, RunError> {
 fn ending(played: &Played, focus: Focus) -> Ending {
     let last = played.last.map(|command| command.counts);
     Ending {
-        ticks: played.ticks,
-        focus,
+        end: End {
+            ticks: played.ticks,
+            focus,
+        },
         position: NAMES.into_iter().zip(last.into_iter().flatten()).collect(),
         unit: "counts",
     }

@@ -2,15 +2,15 @@
 
 mod parts;
 mod report;
+mod shard;
 mod tasks;
 mod work;
 
-use super::chosen::{Changes, entry};
+use super::chosen::Changes;
 use super::{Failure, print, print_json};
 use clap::Args;
-use motion_rtl::registry::{CATALOGUE, Entry};
-use parts::Shard;
 use report::{Asked, Report};
+use shard::Shard;
 use std::path::PathBuf;
 
 /// Arguments of `check`.
@@ -41,21 +41,6 @@ pub struct Arguments {
     /// Prints the table as JSON.
     #[arg(long)]
     json: bool,
-}
-
-/// Returns the circuits with these names, each once; all circuits if there are no names.
-pub fn entries(names: &[String]) -> Result<Vec<&'static Entry>, Failure> {
-    let mut entries: Vec<&Entry> = Vec::new();
-    for name in names {
-        let named = entry(name)?;
-        if !entries.iter().any(|other| other.name == named.name) {
-            entries.push(named);
-        }
-    }
-    if entries.is_empty() {
-        entries.extend(CATALOGUE);
-    }
-    Ok(entries)
 }
 
 /// Proves and sweeps, or puts together what was proved and swept elsewhere.

@@ -1,75 +1,16 @@
 //! Parts of a work that is done in several places, and how they come together.
 
-use super::report::{Asked, Ended, Kind, Report, Row};
+use super::report::{Asked, Ended, Report, Row};
+use super::shard::Shard;
 use super::tasks::{self, Task};
 use crate::cli::Failure;
 use motion_rtl::input::{Fault, read_string};
-use serde::{Deserialize, Serialize};
-use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
 /// Contents of a part's file, for messages.
 const PRINTED: &str = "what `check --shard --json` printed";
 /// Most missing parts that a message lists.
 const LISTED: usize = 10;
-
-/// A part of the work; part 1 of 1 is all of it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Shard {
-    /// Number of the part, from 1.
-    pub part: u32,
-    /// Count of parts.
-    pub of: u32,
-}
-
-impl Default for Shard {
-    fn default() -> Self {
-        Shard { part: 1, of: 1 }
-    }
-}
-
-impl FromStr for Shard {
-    type Err = &'static str;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let numbers = text
-            .split_once('/')
-            .and_then(|(part, of)| Some((part.parse().ok()?, of.parse().ok()?)));
-        match numbers {
-            Some((part, of)) if (1..=of).contains(&part) => Ok(Shard { part, of }),
-            _ => Err("allowed: a part and how many there are, 1/4 to 4/4 for instance"),
-        }
-    }
-}
-
-impl Shard {
-    /// Its tasks: of the proofs every `of`-th, every sweep.
-    pub fn of(self, tasks: &[Task]) -> Vec<&Task> {
-        let mut proofs = 0;
-        let mine = tasks.iter().filter(|task| {
-            let turn = proofs % self.of + 1;
-            match task.kind {
-                Kind::Sweep => true,
-                Kind::Proof => {
-                    proofs += 1;
-                    turn == self.part
-                }
-            }
-        });
-        mine.collect()
-    }
-
-    /// Its cases of a sweep.
-    pub fn range(self, cases: u64) -> Range<u64> {
-        let at = |part: u32| {
-            let at = u128::from(cases) * u128::from(part) / u128::from(self.of);
-            at as u64
-        };
-        at(self.part - 1)..at(self.part)
-    }
-}
 
 fn fault(file: &Path, line: usize, field: &str, problem: String, allowed: String) -> Failure {
     let file = file.display().to_string();
@@ -102,7 +43,7 @@ fn read(path: &Path) -> Result<(Report, Vec<Task>), Failure> {
         return Err(fault(path, 0, "shard", problem, format!("1 to {of}")));
     }
     let (tasks, _) = tasks::of(&report.asked)?;
-    let mine = report.shard.of(&tasks);
+    let mine = tasks::of_shard(report.shard, &tasks);
     let of_task = |task: &Task| (task.circuit(), task.kind);
     let of_row = |row: &Row| (row.circuit.clone(), row.kind);
     for (index, row) in report.rows.iter().enumerate() {

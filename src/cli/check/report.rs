@@ -1,6 +1,6 @@
 //! The result as a table and as JSON.
 
-use super::parts::Shard;
+use super::shard::Shard;
 use crate::cli::Failure;
 use crate::cli::chosen::Changes;
 use serde::{Deserialize, Serialize};

@@ -1,8 +1,9 @@
 //! Proofs and sweeps to run, in the order of the table.
 
-use super::entries;
 use super::report::{Asked, ITS_BLOCKS, Kind, TOO_WIDE};
-use crate::cli::{Failure, chosen};
+use super::shard::Shard;
+use crate::cli::Failure;
+use crate::cli::chosen::{self, entries};
 use motion_rtl::registry::{AnySweep, Entry, Pair};
 
 /// The most cases of a sweep.
@@ -55,6 +56,22 @@ pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
         made(task, asked.circuits.len() < 2)?;
     }
     Ok((tasks, others))
+}
+
+/// Returns the tasks of a part of the work: of the proofs every `of`-th, every sweep.
+pub fn of_shard(shard: Shard, tasks: &[Task]) -> Vec<&Task> {
+    let mut proofs = 0;
+    let mine = tasks.iter().filter(|task| {
+        let turn = proofs % shard.of + 1;
+        match task.kind {
+            Kind::Sweep => true,
+            Kind::Proof => {
+                proofs += 1;
+                turn == shard.part
+            }
+        }
+    });
+    mine.collect()
 }
 
 /// Says what is wrong with a law of more cases than can be swept.

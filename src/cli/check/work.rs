@@ -1,7 +1,7 @@
 //! Does it, on all cores, and shows how far it is.
 
-use super::parts::Shard;
 use super::report::{Ended, Kind, Row};
+use super::shard::Shard;
 use super::tasks::{self, Task};
 use crate::cli::{Failure, threads};
 use indicatif::{HumanCount, MultiProgress, ProgressBar, ProgressStyle};
@@ -42,7 +42,7 @@ impl Bars {
 /// sweeps one by one, each on all threads, so that the time of a row is its own.
 pub fn run(tasks: &[Task], shard: Shard, limit: u32, out: &Path) -> Result<Vec<Row>, Failure> {
     threads::start()?;
-    let mine = shard.of(tasks);
+    let mine = tasks::of_shard(shard, tasks);
     let bars = Bars::new(mine.len());
     let done = |(index, task): (usize, &Task)| {
         let line = bars.line(task);

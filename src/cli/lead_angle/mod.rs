@@ -12,17 +12,17 @@ pub mod waves;
 pub use job::Job;
 
 use super::Failure;
-use super::files::Files;
+use super::arguments::Arguments;
 use super::progress::{self, Part, Work};
 use super::report::conclude;
-use super::run::{Arguments, in_waves, options};
+use super::setup::Setup;
+use super::simulate::{Stage, with_waves};
 use super::threads;
-use super::traces::{Focus, Traces};
+use super::traces::{End, Focus};
 use motion_rtl::hdl::{RunError, model_beside};
 use motion_rtl::jobs::lead_angle::job::{Played, play, positioner};
 use motion_rtl::jobs::lead_angle::settings::{History, LeadBy, Settings};
 use motion_rtl::plant::waves::Body;
-use motion_rtl::trace::Options;
 use rayon::prelude::*;
 use summary::Summary;
 use systems::{NONE, System, systems};
@@ -68,25 +68,31 @@ const OVERVIEW_BY_SPEED: [&str; 11] = [
 
 /// Runs a job.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
-    let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
+    let setup = Setup::new(arguments, &job.loaded, &job.stem)?;
     if let Some(log) = &job.log {
-        return log::run(arguments, job, log, &options);
+        return log::run(&setup, job, log);
     }
     threads::start()?;
     let mut systems = systems(&job.settings);
     let (ticks, runs) = (job.ticks_at_least(), systems.len() as u64);
-    progress::run(
-        &job.stem,
-        Work {
+    let shown = systems.iter().find(|system| system.own);
+    let settings = shown.map_or(&job.settings, |system| &system.settings);
+    let circuit = positioner(settings);
+    let stage = Stage {
+        circuit: &circuit,
+        model: &model_beside(&circuit, &Body).map_err(RunError::from)?,
+        subject: &job.stem,
+        work: Work {
             ticks,
             runs,
             seconds: ticks as f64 * runs as f64 * TICK_S,
-            in_waves: in_waves(arguments, &options, ticks),
         },
-    );
-    let shown = systems.iter().find(|system| system.own);
-    let shown = shown.map_or(&job.settings, |system| &system.settings);
-    let (own, mut files) = simulate(arguments, job, shown, &options)?;
+    };
+    let (own, mut files) = with_waves(&setup, &stage, |observer| {
+        let played = play(&circuit, settings, observer)?;
+        let end = end(settings, &played);
+        Ok((played, end))
+    })?;
     if !job.loaded.scenario.beside() {
         systems.retain(|system| system.own);
     }
@@ -105,7 +111,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     progress::stage("summary and picture");
     files.write("svg", &picture::draw(job, &played))?;
     let summary = Summary::new(job, &played);
-    conclude(arguments, &options, files, summary)
+    conclude(&setup, files, summary)
 }
 
 /// Plays a system without waves.
@@ -118,26 +124,13 @@ fn alone(system: &System) -> Result<Played, Failure> {
     Ok(play(&positioner(settings), settings, &mut Part::default())?)
 }
 
-/// Plays the settings' own system with its waves.
-fn simulate(
-    arguments: &Arguments,
-    job: &Job,
-    settings: &Settings,
-    options: &Options,
-) -> Result<(Played, Files), Failure> {
-    let circuit = positioner(settings);
-    let shown = model_beside(&circuit, &Body).map_err(RunError::from)?;
-    let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
-    let traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
-    traces.play(
-        &shown,
-        |observer| Ok(play(&circuit, settings, observer)?),
-        |played: &Played| {
-            let first = played.positionings.first();
-            let fired = first.map_or(0, |positioning| positioning.fired);
-            (focus(settings, fired), played.ticks)
-        },
-    )
+/// The end of a run; its window has the first signal in its middle.
+fn end(settings: &Settings, played: &Played) -> End {
+    let first = played.positionings.first();
+    End {
+        ticks: played.ticks,
+        focus: focus(settings, first.map_or(0, |positioning| positioning.fired)),
+    }
 }
 
 /// A window with that tick in its middle.

@@ -1,7 +1,7 @@
 //! The systems of a job with their waves.
 
 use super::systems::{NONE, systems as of_settings};
-use super::{Job, alone, focus, log};
+use super::{Job, alone, end, log};
 use crate::cli::Failure;
 use crate::cli::waves_of::{Ending, System};
 use motion_rtl::circuits::lead_angle::Compensator;
@@ -26,11 +26,8 @@ pub fn systems(job: &Job) -> Vec<System<'_>> {
             let model = model_beside(&circuit, &Body).map_err(RunError::from)?;
             let run = move |circuit: &Compensator, observer: &mut dyn Observer<Compensator>| {
                 let played = play(circuit, &system.settings, observer)?;
-                let first = played.positionings.first();
-                let fired = first.map_or(0, |positioning| positioning.fired);
                 Ok::<_, Failure>(Ending {
-                    ticks: played.ticks,
-                    focus: focus(&system.settings, fired),
+                    end: end(&system.settings, &played),
                     position: [("position", played.position)].into(),
                     unit: "counts",
                 })

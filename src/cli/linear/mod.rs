@@ -10,16 +10,17 @@ mod verdict;
 
 pub use job::Job;
 
-use super::files::Files;
+use super::arguments::Arguments;
 use super::progress::{self, Part, Work};
 use super::report::conclude;
-use super::run::{Arguments, in_waves, options};
-use super::traces::{Focus, Traces};
+use super::setup::Setup;
+use super::simulate::{Stage, with_waves};
+use super::traces::{End, Focus};
 use super::waves_of::{Ending, System};
 use super::{Failure, threads};
 use job::Other;
 use motion_rtl::circuits::linear_interpolator::Controller;
-use motion_rtl::hdl::{Model, Observer, RunError, model_beside};
+use motion_rtl::hdl::{Observer, RunError, model_beside};
 use motion_rtl::jobs::linear_interpolator::job::{conventional, play_each, plotter};
 use motion_rtl::jobs::linear_interpolator::measure::Seen;
 use motion_rtl::jobs::linear_interpolator::settings::{AXIS_NAMES, Settings};
@@ -68,56 +69,58 @@ const CONVENTIONAL_OVERVIEW: [&str; 11] = [
 ];
 
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
-    let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
+    let setup = Setup::new(arguments, &job.loaded, &job.stem)?;
     let circuit = plotter(&job.settings);
-    let model = model_beside(&circuit, &Axes).map_err(RunError::from)?;
-    let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
-    // Traces begin before the other runs, so that an error in their options is reported at once.
-    let traces = Traces::begin((&model, &circuit), arguments, scenario, &options, ticks)?;
+    let ticks = job.ticks_at_least();
     let runs = if job.other.is_some() { 4 } else { 1 };
-    progress::run(
-        &job.drawing.file,
-        Work {
+    let stage = Stage {
+        circuit: &circuit,
+        model: &model_beside(&circuit, &Axes).map_err(RunError::from)?,
+        subject: &job.drawing.file,
+        work: Work {
             ticks,
             runs,
             seconds: ticks as f64 * runs as f64 * TICK_S,
-            in_waves: in_waves(arguments, &options, ticks),
         },
-    );
-    let (runs, mut files) = match &job.other {
-        None => {
-            let (interpolator, files) = simulate((&circuit, &model), job, traces)?;
-            let runs = Runs {
-                interpolator,
+    };
+    let (runs, mut files) = with_waves(&setup, &stage, |observer| {
+        let (targets, settings) = (&job.compiled.targets, &job.settings);
+        let mut own = || play_system(&circuit, job, targets, settings, observer);
+        let runs = match &job.other {
+            None => Runs {
+                interpolator: own()?,
                 other: None,
                 conventional: None,
-            };
-            (runs, files)
-        }
-        Some(other) => compared((&circuit, &model), job, other, traces)?,
-    };
+            },
+            Some(other) => compared(job, other, own)?,
+        };
+        let run = &runs.interpolator;
+        let end = end(settings, run.played.ticks, run.begun, &OVERVIEW);
+        Ok((runs, end))
+    })?;
     progress::stage("summary and picture");
     files.write("svg", &draw(job, &runs))?;
     let summary = Summary::new(job, &runs);
-    conclude(arguments, &options, files, summary)
+    conclude(&setup, files, summary)
 }
 
-/// Plays the job with its waves, and in parallel the systems that it is compared with.
+/// Plays the job as `own` does, and in parallel the systems that it is compared with.
 fn compared(
-    shown: (&Controller, &Model),
     job: &Job,
     other: &Other,
-    traces: Traces<'_>,
-) -> Result<(Runs, Files), Failure> {
+    own: impl FnOnce() -> Result<Run, Failure>,
+) -> Result<Runs, Failure> {
     let conventional = |way: Way| {
         let targets = way.targets(&job.longer().targets, &job.settings);
-        alone(&conventional(), job, &targets, &job.settings)
+        let progress = &mut Part::default();
+        play_system(&conventional(), job, &targets, &job.settings, progress)
     };
     let other = || match &other.compiled {
         Err(_) => Ok(None),
         Ok(compiled) => {
-            let settings = &other.settings;
-            alone(&plotter(settings), job, &compiled.targets, settings).map(Some)
+            let (targets, settings) = (&compiled.targets, &other.settings);
+            let progress = &mut Part::default();
+            play_system(&plotter(settings), job, targets, settings, progress).map(Some)
         }
     };
     thread::scope(|scope| {
@@ -125,58 +128,40 @@ fn compared(
         let [same, inverse] = Way::ALL;
         let others = [start(same)?, start(inverse)?];
         let other = threads::beside(scope, other)?;
-        let (interpolator, files) = simulate(shown, job, traces)?;
+        let interpolator = own()?;
         let [same, inverse] = others.map(threads::joined);
-        let runs = Runs {
+        Ok(Runs {
             interpolator,
             other: threads::joined(other)?,
             conventional: Some([same?, inverse?]),
-        };
-        Ok((runs, files))
+        })
     })
 }
 
-/// Plays cycles without waves.
-fn alone<const N: usize>(
+/// Plays cycles on a system.
+fn play_system<const N: usize>(
     circuit: &Controller,
     job: &Job,
     targets: &[Target<N>],
     settings: &Settings,
+    observer: &mut dyn Observer<Controller>,
 ) -> Result<Run, Failure> {
     let mut run = UnderWay::new(job);
     let each = &mut |seen: &Seen<'_>| run.take(seen);
-    let played = play_each(circuit, targets, settings, &mut Part::default(), each)?;
+    let played = play_each(circuit, targets, settings, observer, each)?;
     Ok(run.finish(played))
 }
 
-/// Plays the job on the linear interpolator, with its waves.
-fn simulate(
-    (circuit, model): (&Controller, &Model),
-    job: &Job,
-    traces: Traces<'_>,
-) -> Result<(Run, Files), Failure> {
-    let (targets, settings) = (&job.compiled.targets, &job.settings);
-    traces.play(
-        model,
-        |observer| {
-            let mut run = UnderWay::new(job);
-            let each = &mut |seen: &Seen<'_>| run.take(seen);
-            let played = play_each(circuit, targets, settings, observer, each)?;
-            Ok(run.finish(played))
-        },
-        |run: &Run| (focus(settings, run.begun, &OVERVIEW), run.played.ticks),
-    )
-}
-
-/// A window that begins shortly before the first command.
-fn focus(settings: &Settings, begun: u64, overview: &'static [&'static str]) -> Focus {
+/// The end of a run; its window begins shortly before the first command.
+fn end(settings: &Settings, ticks: u64, begun: u64, overview: &'static [&'static str]) -> End {
     let scan = u64::from(settings.scan_ticks);
-    Focus {
+    let focus = Focus {
         action: begun,
         before: 2 * scan,
         shown: SCANS_SHOWN * scan,
         overview,
-    }
+    };
+    End { ticks, focus }
 }
 
 /// The systems of the summary.
@@ -226,8 +211,7 @@ fn system<'a, const N: usize, const R: usize>(
             };
             let played = play_each(circuit, &targets, settings, observer, each)?;
             Ok(Ending {
-                ticks: played.ticks,
-                focus: focus(settings, begun.unwrap_or(0), overview),
+                end: end(settings, played.ticks, begun.unwrap_or(0), overview),
                 position: AXIS_NAMES.into_iter().zip(last).collect(),
                 unit: "counts",
             })

@@ -11,11 +11,12 @@ mod verdict;
 pub use job::Job;
 
 use super::Failure;
-use super::files::Files;
+use super::arguments::Arguments;
 use super::progress::{self, Work};
 use super::report::conclude;
-use super::run::{Arguments, in_waves, options};
-use super::traces::{Focus, Traces};
+use super::setup::Setup;
+use super::simulate::{Stage, with_waves};
+use super::traces::{End, Focus};
 use super::waves_of::{Ending, System};
 use motion_rtl::circuits::machine::Machine;
 use motion_rtl::hdl::{Circuit, Observer, RunError, model_beside};
@@ -23,8 +24,7 @@ use motion_rtl::jobs::machine::Settings;
 use motion_rtl::jobs::machine::job::{Played, machine, play_each};
 use motion_rtl::jobs::machine::waves::Plants;
 use motion_rtl::plan::Plan;
-use motion_rtl::trace::Options;
-use runs::{Run, UnderWay};
+use runs::UnderWay;
 use summary::Summary;
 
 /// About how long a tick takes, with all motors.
@@ -68,54 +68,49 @@ const OVERVIEW: [&str; 28] = [
 ];
 
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
-    let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
-    let (run, mut files) = simulate(arguments, job, &options)?;
-    progress::stage("summary and picture");
-    files.write("svg", &picture::draw(job, &run))?;
-    let summary = Summary::new(job, &run.played, &run.measured);
-    conclude(arguments, &options, files, summary)
-}
-
-/// Plays the job with its waves.
-fn simulate(arguments: &Arguments, job: &Job, options: &Options) -> Result<(Run, Files), Failure> {
+    let setup = Setup::new(arguments, &job.loaded, &job.stem)?;
     let plan = Plan::new(&job.drawing, &job.settings.motion);
     let plan = plan.map_err(|error| Failure::Check(error.to_string()))?;
     let (program, settings) = (&job.program, &job.settings);
     let circuit = machine(settings);
-    let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
-    let model = model_beside(&circuit, &Plants).map_err(RunError::from)?;
-    let traces = Traces::begin((&model, &circuit), arguments, scenario, options, ticks)?;
-    progress::run(
-        &job.drawing.file,
-        Work {
+    let ticks = job.ticks_at_least();
+    let stage = Stage {
+        circuit: &circuit,
+        model: &model_beside(&circuit, &Plants).map_err(RunError::from)?,
+        subject: &job.drawing.file,
+        work: Work {
             ticks,
             runs: 1,
             seconds: ticks as f64 * TICK_S,
-            in_waves: in_waves(arguments, options, ticks),
         },
-    );
-    traces.play(
-        &model,
-        |observer| {
-            let mut run = UnderWay::new(job, &plan);
-            let each = &mut |event| run.take(event);
-            let played = play_each(&circuit, program, settings, observer, each)?;
-            Ok(run.finish(played))
-        },
-        |run: &Run| (focus(settings, &run.played), run.played.ticks),
-    )
+    };
+    let (run, mut files) = with_waves(&setup, &stage, |observer| {
+        let mut run = UnderWay::new(job, &plan);
+        let each = &mut |event| run.take(event);
+        let played = play_each(&circuit, program, settings, observer, each)?;
+        let end = end(settings, &played);
+        Ok((run.finish(played), end))
+    })?;
+    progress::stage("summary and picture");
+    files.write("svg", &picture::draw(job, &run))?;
+    let summary = Summary::new(job, &run.played, &run.measured);
+    conclude(&setup, files, summary)
 }
 
-/// A window around the first signal that stops the pen lift, or where there is none the first move.
-fn focus(settings: &Settings, played: &Played) -> Focus {
+/// The end of a run; its window is around the first signal that stops the pen lift, or where there is none the first move.
+fn end(settings: &Settings, played: &Played) -> End {
     let sample = u64::from(settings.sample_ticks);
     let fired = played.liftings.first().map(|lifting| lifting.fired);
     let begun = played.moves.first().map_or(0, |timed| timed.begun);
-    Focus {
+    let focus = Focus {
         action: fired.unwrap_or(begun),
         before: SAMPLES_BEFORE * sample,
         shown: SAMPLES_SHOWN * sample,
         overview: &OVERVIEW,
+    };
+    End {
+        ticks: played.ticks,
+        focus,
     }
 }
 
@@ -128,8 +123,7 @@ pub fn systems(job: &Job) -> Vec<System<'_>> {
         let run = move |circuit: &Machine, observer: &mut dyn Observer<Machine>| {
             let played = play_each(circuit, program, settings, observer, &mut |_| {})?;
             Ok(Ending {
-                ticks: played.ticks,
-                focus: focus(settings, &played),
+                end: end(settings, &played),
                 position: ["x", "y"].into_iter().zip(played.motor).collect(),
                 unit: "counts",
             })

@@ -23,8 +23,6 @@ pub struct Job {
     pub variant: VariantName,
     /// Moves of the conventional device.
     pub conventional_moves: ConventionalMoves,
-    /// The most ticks that go into the VCD unless a window is asked for.
-    pub vcd_ticks: u64,
     /// Its settings.
     pub settings: Settings,
     /// The pattern memory's contents.
@@ -80,7 +78,6 @@ impl Job {
         let drawing = source.drawing()?;
         let variant = scenario.variant;
         let conventional_moves = scenario.conventional_moves;
-        let vcd_ticks = source.loaded.scenario.vcd_ticks();
         let settings = scenario.settings(&drawing);
         progress::stage("planning the path");
         let compiled = match is_for_run {
@@ -99,7 +96,6 @@ impl Job {
             drawing,
             variant,
             conventional_moves,
-            vcd_ticks,
             settings,
             table,
             report,

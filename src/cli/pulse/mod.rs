@@ -16,21 +16,21 @@ pub use summary::{TableSummary, warnings};
 pub use waves::{own, systems};
 
 use super::Failure;
+use super::arguments::Arguments;
 use super::files::Files;
 use super::progress::{self, Work};
 use super::report::conclude;
-use super::run::{Arguments, in_waves, options};
-use super::traces::{Focus, Traces};
+use super::setup::Setup;
+use super::simulate::{Stage, with_waves};
+use super::traces::{End, Focus};
 use motion_rtl::circuits::pulse_interpolator::Group;
-use motion_rtl::hdl::{Observer, RunError, model, model_beside};
+use motion_rtl::hdl::Observer;
 use motion_rtl::jobs::pulse_interpolator::job::{
     Computer, Played, fast_forward_by, group, play_by, play_motors,
 };
-use motion_rtl::jobs::pulse_interpolator::motors::{Motors, StepMotors};
+use motion_rtl::jobs::pulse_interpolator::motors::Motors;
 use motion_rtl::jobs::pulse_interpolator::{ControlComputer, Table};
-use motion_rtl::scenario::Loaded;
 use motion_rtl::settings::JobError;
-use motion_rtl::trace::Options;
 use picture::{Following, draw};
 use summary::Summary;
 
@@ -66,14 +66,12 @@ const OVERVIEW: [&str; 19] = [
 
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     has_no_segments(arguments)?;
-    let options = options(arguments, job.vcd_ticks)?;
+    let setup = Setup::new(arguments, &job.loaded, &job.stem)?;
     let group = group(&job.table, job.variant.into());
     let mut computer = ControlComputer::new(&group, &job.table);
-    let (played, mut files) = simulate(
-        arguments,
-        (&job.loaded, &job.stem),
+    let (played, mut files) = play_table(
+        &setup,
         (&group, &job.table),
-        &options,
         (&mut |pending| computer.drive(pending), job.motors.clone()),
         true,
     )?;
@@ -91,7 +89,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let summary = Summary::new(job, &played, &following.largest, (circuits, astray));
     progress::stage("summary and picture");
     files.write("svg", &draw(job, following))?;
-    conclude(arguments, &options, files, summary)
+    conclude(&setup, files, summary)
 }
 
 /// Refuses what asks for segments.
@@ -106,47 +104,37 @@ fn has_no_segments(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Has a computer play a table on the pulse interpolator, with its waves; one that need not be asked
-/// in every tick `skips` idle ones.
-fn simulate(
-    arguments: &Arguments,
-    scenario: (&Loaded, &str),
+/// Has a computer play a table on the pulse interpolator, with its waves. If the computer `skips`
+/// idle ticks and no file needs them, these are gone over.
+fn play_table(
+    setup: &Setup<'_>,
     (group, table): (&Group, &Table),
-    options: &Options,
     (computer, motors): (&mut Computer<'_>, Option<Motors>),
     skips: bool,
 ) -> Result<(Played, Files), Failure> {
     let ticks = table.total_ticks();
-    let shown = match &motors {
-        None => model(group),
-        Some(_) => model_beside(group, &StepMotors { axes: group.axes }),
-    };
-    let shown = shown.map_err(RunError::from)?;
-    let traces = Traces::begin((&shown, group), arguments, scenario, options, ticks)?;
-    let in_waves = in_waves(arguments, options, ticks);
-    // Idle ticks are skipped if nothing has to see every tick.
-    let idle = skips && motors.is_none() && traces.is_empty();
-    let seconds = match idle {
-        true => table.units() as f64 * UNIT_S,
-        false => ticks as f64 * TICK_S,
-    };
-    let work = Work {
-        ticks,
-        runs: 1,
-        seconds,
-        in_waves,
-    };
-    progress::run(scenario.1, work);
-    traces.play(
-        &shown,
-        |observer| {
-            Ok(match idle {
-                true => fast_forward_by(group, table, computer, observer)?,
-                false => play_on(group, table, (computer, motors), observer)?,
-            })
+    let idle = skips && motors.is_none() && setup.skips_ticks();
+    let stage = Stage {
+        circuit: group,
+        model: &waves::shown(group, group.axes, motors.as_ref())?,
+        subject: setup.stem,
+        work: Work {
+            ticks,
+            runs: 1,
+            seconds: match idle {
+                true => table.units() as f64 * UNIT_S,
+                false => ticks as f64 * TICK_S,
+            },
         },
-        |played: &Played| (focus(table, played), played.ticks),
-    )
+    };
+    with_waves(setup, &stage, |observer| {
+        let played = match idle {
+            true => fast_forward_by(group, table, computer, observer)?,
+            false => play_on(group, table, (computer, motors), observer)?,
+        };
+        let end = end(table, &played);
+        Ok((played, end))
+    })
 }
 
 /// Plays a table, with motors if there are any.
@@ -162,13 +150,17 @@ fn play_on(
     }
 }
 
-/// A window that begins a unit time before the first step.
-fn focus(table: &Table, played: &Played) -> Focus {
+/// The end of a run; its window begins a unit time before the first step.
+fn end(table: &Table, played: &Played) -> End {
     let unit = u64::from(table.patterns().first().map_or(1, |first| first.period));
-    Focus {
+    let focus = Focus {
         action: played.first_step.unwrap_or(played.begun),
         before: unit,
         shown: UNITS_SHOWN * unit,
         overview: &OVERVIEW,
+    };
+    End {
+        ticks: played.ticks,
+        focus,
     }
 }

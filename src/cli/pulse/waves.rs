@@ -1,8 +1,8 @@
 //! The systems of a job with their waves.
 
 use super::beside::moves;
-use super::{Job, focus, play_on};
-use crate::cli::traces::Focus;
+use super::{Job, end, play_on};
+use crate::cli::traces::{End, Focus};
 use crate::cli::waves_of::{Ending, System};
 use motion_rtl::circuits::pulse_interpolator::group::In;
 use motion_rtl::circuits::pulse_interpolator::{AXIS_NAMES, Conventional, Group};
@@ -57,7 +57,11 @@ pub fn systems(job: &Job) -> Vec<System<'_>> {
 }
 
 /// A circuit, with its motors if there are any.
-fn shown<C: Circuit>(circuit: &C, axes: usize, motors: Option<&Motors>) -> Result<Model, RunError> {
+pub fn shown<C: Circuit>(
+    circuit: &C,
+    axes: usize,
+    motors: Option<&Motors>,
+) -> Result<Model, RunError> {
     Ok(match motors {
         None => model(circuit),
         Some(_) => model_beside(circuit, &StepMotors { axes }),
@@ -65,14 +69,9 @@ fn shown<C: Circuit>(circuit: &C, axes: usize, motors: Option<&Motors>) -> Resul
 }
 
 /// The end of a run with the positions of its axes by name.
-pub(super) fn ending(
-    ticks: u64,
-    focus: Focus,
-    ends: impl Iterator<Item = (&'static str, i64)>,
-) -> Ending {
+pub(super) fn ending(end: End, ends: impl Iterator<Item = (&'static str, i64)>) -> Ending {
     Ending {
-        ticks,
-        focus,
+        end,
         position: ends.collect::<BTreeMap<_, _>>(),
         unit: "steps",
     }
@@ -92,7 +91,7 @@ pub fn own<'a, F: FnMut(bool) -> Option<In<Value>> + 'a>(
             let played = play_on(group, table, (&mut computer, motors), observer)?;
             let ends = played.axes.iter().map(|axis| axis.position());
             let ends = AXIS_NAMES.into_iter().zip(ends);
-            Ok(ending(played.ticks, focus(table, &played), ends))
+            Ok(ending(end(table, &played), ends))
         };
         Ok((group, model, run))
     })
@@ -116,7 +115,8 @@ fn conventional(job: &Job) -> System<'_> {
             };
             let ends = seen.positions.iter().rev().take(axes).rev();
             let ends = AXIS_NAMES.into_iter().zip(ends.map(|end| i64::from(*end)));
-            Ok(ending(seen.ticks, focus, ends))
+            let ticks = seen.ticks;
+            Ok(ending(End { ticks, focus }, ends))
         };
         Ok((circuit, model, run))
     })

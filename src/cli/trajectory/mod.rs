@@ -10,23 +10,23 @@ mod verdict;
 
 pub use job::Job;
 
-use super::files::Files;
+use super::arguments::Arguments;
 use super::progress::{self, Part, Work};
 use super::report::conclude;
-use super::run::{Arguments, in_waves, options};
-use super::traces::{Focus, Traces};
+use super::setup::Setup;
+use super::simulate::{Stage, with_waves};
+use super::traces::{End, Focus};
 use super::waves_of::{Ending, System};
 use super::{Failure, threads};
 use motion_rtl::circuits::trajectory_controller::TrajectoryController;
 use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
-use motion_rtl::hdl::{Model, Observer, RunError, model_beside};
+use motion_rtl::hdl::{Observer, RunError, model_beside};
 use motion_rtl::jobs::trajectory_controller::job::{Period, Played, controller, play_each};
 use motion_rtl::jobs::trajectory_controller::program::Program;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
 use motion_rtl::plant::TwoMassAxis;
 use motion_rtl::plant::waves::Machine;
 use motion_rtl::settings::JobError;
-use motion_rtl::trace::Options;
 use picture::draw;
 use runs::{FULL_FEED, IN_MOTION, Run, Runs, UnderWay};
 use std::thread;
@@ -71,64 +71,75 @@ const CORRECTIONS: [Correction; 4] = [
 ];
 
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
-    let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
-    let (runs, mut files) = all(arguments, job, &options)?;
-    progress::stage("summary and picture");
-    files.write("svg", &draw(job, &runs))?;
-    let summary = Summary::new(job, &runs);
-    conclude(arguments, &options, files, summary)
-}
-
-/// Plays the path by the correction of the scenario, with its waves; and where that is compared by
-/// every other, and by the vector at full feed too where a contour tolerance limits it.
-fn all(arguments: &Arguments, job: &Job, options: &Options) -> Result<(Runs, Files), Failure> {
+    let setup = Setup::new(arguments, &job.loaded, &job.stem)?;
     let traced = job.settings.correction;
     let circuit = controller(job.axes(), traced, job.settings.rounding);
-    let model = model_beside(&circuit, &Machine { axes: job.axes() }).map_err(RunError::from)?;
-    let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
-    // Traces begin before the other runs, so that an error in their options is reported at once.
-    let traces = Traces::begin((&model, &circuit), arguments, scenario, options, ticks)?;
     let runs = match (job.loaded.scenario.beside(), &job.full_feed) {
         (false, _) => 1,
         (true, None) => CORRECTIONS.len() as u64,
         (true, Some(_)) => CORRECTIONS.len() as u64 + 1,
     };
-    let subject = job
-        .drawing
-        .as_ref()
-        .map_or(&job.stem, |drawing| &drawing.file);
-    progress::run(
+    let ticks = job.ticks_at_least();
+    let subject = job.drawing.as_ref();
+    let subject = subject.map_or(&job.stem, |drawing| &drawing.file);
+    let machine = Machine { axes: job.axes() };
+    let stage = Stage {
+        circuit: &circuit,
+        model: &model_beside(&circuit, &machine).map_err(RunError::from)?,
         subject,
-        Work {
+        work: Work {
             ticks,
             runs,
             seconds: ticks as f64 * runs as f64 * TICK_S,
-            in_waves: in_waves(arguments, options, ticks),
         },
-    );
-    if !job.loaded.scenario.beside() {
-        let (own, files) = simulate((&circuit, &model), job, traces)?;
-        let runs = own.into_iter().collect();
-        return Ok((Runs { runs, traced }, files));
-    }
+    };
+    let (runs, mut files) = with_waves(&setup, &stage, |observer| {
+        let mut own = || {
+            let (run, played) = play_path(job, &job.program, traced, observer)?;
+            let begun = run.as_ref().map_or(played.start, |run| run.in_motion);
+            let end = end(&job.program, &played, begun);
+            Ok((run, end))
+        };
+        let (runs, end) = match job.loaded.scenario.beside() {
+            false => {
+                let (own, end) = own()?;
+                (own.into_iter().collect(), end)
+            }
+            true => compared(job, own)?,
+        };
+        Ok((Runs { runs, traced }, end))
+    })?;
+    progress::stage("summary and picture");
+    files.write("svg", &draw(job, &runs))?;
+    let summary = Summary::new(job, &runs);
+    conclude(&setup, files, summary)
+}
+
+/// Plays the path by the correction of the scenario as `own` does, and in parallel by every other,
+/// and by the vector at full feed if a contour tolerance limits it.
+fn compared(
+    job: &Job,
+    own: impl FnOnce() -> Result<(Option<Run>, End), Failure>,
+) -> Result<(Vec<Run>, End), Failure> {
     thread::scope(|scope| {
         let mut others = Vec::new();
         for correction in CORRECTIONS {
             let untraced = move || untraced(job, &job.program, correction);
-            let started = (correction != traced).then(|| threads::beside(scope, untraced));
+            let other = correction != job.settings.correction;
+            let started = other.then(|| threads::beside(scope, untraced));
             others.push(started.transpose()?);
         }
         let full_feed = job.full_feed.as_ref().map(|program| {
             threads::beside(scope, move || untraced(job, program, Correction::Vector))
         });
         let full_feed = full_feed.transpose()?;
-        let own = simulate((&circuit, &model), job, traces);
+        let own = own();
         let others: Vec<_> = others
             .into_iter()
             .map(|other| other.map(threads::joined))
             .collect();
         let full_feed = full_feed.map(threads::joined).transpose();
-        let (mut own, files) = own?;
+        let (mut own, end) = own?;
         let mut runs = Vec::new();
         for other in others {
             runs.extend(match other {
@@ -142,7 +153,7 @@ fn all(arguments: &Arguments, job: &Job, options: &Options) -> Result<(Runs, Fil
                 ..run
             });
         }
-        Ok((Runs { runs, traced }, files))
+        Ok((runs, end))
     })
 }
 
@@ -154,46 +165,38 @@ fn plants(job: &Job) -> Result<Vec<TwoMassAxis>, Failure> {
     Ok(plants.collect::<Result<_, _>>()?)
 }
 
-/// Plays the path without waves.
-fn untraced(job: &Job, program: &Program, correction: Correction) -> Result<Option<Run>, Failure> {
+/// Plays a path by one correction.
+fn play_path(
+    job: &Job,
+    program: &Program,
+    correction: Correction,
+    observer: &mut dyn Observer<TrajectoryController>,
+) -> Result<(Option<Run>, Played), Failure> {
     let circuit = controller(job.axes(), correction, job.settings.rounding);
     let mut run = UnderWay::new(job, program, correction);
     let each = &mut |period: &Period| run.take(period);
-    let played = play_each(&circuit, program, plants(job)?, &mut Part::default(), each)?;
-    Ok(run.finish(&played))
+    let played = play_each(&circuit, program, plants(job)?, observer, each)?;
+    Ok((run.finish(&played), played))
 }
 
-/// Plays the path with its waves.
-fn simulate(
-    (circuit, model): (&TrajectoryController, &Model),
-    job: &Job,
-    traces: Traces<'_>,
-) -> Result<(Option<Run>, Files), Failure> {
-    let plants = plants(job)?;
-    let ((run, _), files) = traces.play(
-        model,
-        |observer| {
-            let mut run = UnderWay::new(job, &job.program, job.settings.correction);
-            let each = &mut |period: &Period| run.take(period);
-            let played = play_each(circuit, &job.program, plants, observer, each)?;
-            Ok((run.finish(&played), played))
-        },
-        |(run, played): &(Option<Run>, Played)| {
-            let begun = run.as_ref().map_or(played.start, |run| run.in_motion);
-            (focus(&job.program, begun), played.ticks)
-        },
-    )?;
-    Ok((run, files))
+/// Plays a path without waves.
+fn untraced(job: &Job, program: &Program, correction: Correction) -> Result<Option<Run>, Failure> {
+    let (run, _) = play_path(job, program, correction, &mut Part::default())?;
+    Ok(run)
 }
 
-/// A window that begins with a period in motion.
-fn focus(program: &Program, action: u64) -> Focus {
+/// The end of a run; its window begins with a period in motion.
+fn end(program: &Program, played: &Played, action: u64) -> End {
     let shown = PERIODS_SHOWN * u64::from(program.period_ticks);
-    Focus {
+    let focus = Focus {
         action,
         before: shown / PERIODS_SHOWN,
         shown,
         overview: &OVERVIEW,
+    };
+    End {
+        ticks: played.ticks,
+        focus,
     }
 }
 
@@ -230,8 +233,7 @@ fn system<'a>(
             let played = play_each(circuit, program, plants, observer, each)?;
             let names = AXIS_NAMES[..job.axes()].iter().copied();
             Ok(Ending {
-                ticks: played.ticks,
-                focus: focus(program, begun.unwrap_or(played.start)),
+                end: end(program, &played, begun.unwrap_or(played.start)),
                 position: names.zip(played.motor).collect(),
                 unit: "counts",
             })

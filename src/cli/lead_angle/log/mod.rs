@@ -5,11 +5,11 @@ mod text;
 
 use super::{Job, focus};
 use crate::cli::Failure;
-use crate::cli::files::Files;
 use crate::cli::progress::{self, Work};
 use crate::cli::report::{Outcome, conclude};
-use crate::cli::run::{Arguments, in_waves};
-use crate::cli::traces::{Focus, Traces, no_such_tick};
+use crate::cli::setup::Setup;
+use crate::cli::simulate::{Stage, with_waves};
+use crate::cli::traces::End;
 use crate::cli::waves_of::{Ending, System};
 use motion_rtl::circuits::lead_angle::Compensator;
 use motion_rtl::hdl::{Circuit, Observer, RunError, model_beside};
@@ -18,7 +18,6 @@ use motion_rtl::jobs::lead_angle::job::positioner;
 use motion_rtl::jobs::lead_angle::replay::{Replayed, Signal, replay, settings_for};
 use motion_rtl::jobs::lead_angle::settings::Settings;
 use motion_rtl::plant::waves::Body;
-use motion_rtl::trace::Options;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -71,59 +70,39 @@ fn ticks(log: &PositionLog, clock_hz: u64) -> u64 {
 }
 
 /// Replays a log with its waves.
-pub fn run(
-    arguments: &Arguments,
-    job: &Job,
-    log: &PositionLog,
-    options: &Options,
-) -> Result<(), Failure> {
+pub fn run(setup: &Setup<'_>, job: &Job, log: &PositionLog) -> Result<(), Failure> {
     let settings = settings_for(log, &job.settings);
     let ticks = ticks(log, settings.clock_hz);
-    no_such_tick(options, ticks)?;
-    let (replayed, mut files) = simulate(arguments, job, &settings, log, options)?;
+    setup.check_window(ticks)?;
+    let circuit = positioner(&settings);
+    let stage = Stage {
+        circuit: &circuit,
+        model: &model_beside(&circuit, &Body).map_err(RunError::from)?,
+        subject: &log.file,
+        work: Work {
+            ticks,
+            runs: 1,
+            seconds: ticks as f64 * super::TICK_S,
+        },
+    };
+    let (replayed, mut files) = with_waves(setup, &stage, |observer| {
+        let replayed = replay(&circuit, &settings, log, observer)?;
+        let end = end(&settings, &replayed);
+        Ok((replayed, end))
+    })?;
     progress::stage("summary and picture");
     files.write("svg", &picture::draw(job, log, &settings, &replayed))?;
     let summary = summary(log, &settings, &replayed);
-    conclude(arguments, options, files, summary)
+    conclude(setup, files, summary)
 }
 
-/// Replays it with these settings.
-fn simulate(
-    arguments: &Arguments,
-    job: &Job,
-    settings: &Settings,
-    log: &PositionLog,
-    options: &Options,
-) -> Result<(Replayed, Files), Failure> {
-    let circuit = positioner(settings);
-    let shown = model_beside(&circuit, &Body).map_err(RunError::from)?;
-    let ticks = ticks(log, settings.clock_hz);
-    let scenario = (&job.loaded, job.stem.as_str());
-    let traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
-    let in_waves = in_waves(arguments, options, ticks);
-    let seconds = ticks as f64 * super::TICK_S;
-    progress::run(
-        &log.file,
-        Work {
-            ticks,
-            runs: 1,
-            seconds,
-            in_waves,
-        },
-    );
-    traces.play(
-        &shown,
-        |observer| Ok(replay(&circuit, settings, log, observer)?),
-        |replayed: &Replayed| (window(settings, replayed), replayed.ticks),
-    )
-}
-
-/// A window with the first signal in its middle.
-fn window(settings: &Settings, replayed: &Replayed) -> Focus {
-    focus(
-        settings,
-        replayed.signals.first().map_or(0, |signal| signal.tick),
-    )
+/// The end of a run; its window has the first signal in its middle.
+fn end(settings: &Settings, replayed: &Replayed) -> End {
+    let first = replayed.signals.first();
+    End {
+        ticks: replayed.ticks,
+        focus: focus(settings, first.map_or(0, |signal| signal.tick)),
+    }
 }
 
 /// The circuit with the log, as a system.
@@ -136,8 +115,7 @@ pub fn system<'a>(job: &'a Job, log: &'a PositionLog) -> System<'a> {
         let run = move |circuit: &Compensator, observer: &mut dyn Observer<Compensator>| {
             let replayed = replay(circuit, &settings, log, observer)?;
             Ok(Ending {
-                ticks: replayed.ticks,
-                focus: window(&settings, &replayed),
+                end: end(&settings, &replayed),
                 position: BTreeMap::new(),
                 unit: "counts",
             })

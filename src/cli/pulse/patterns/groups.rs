@@ -3,14 +3,16 @@
 use super::summary::{AxisSummary, axes, write_axes};
 use super::{Pattern, found, patterns, stored_fault};
 use crate::cli::Failure;
-use crate::cli::progress::{self, Work};
+use crate::cli::arguments::Arguments;
+use crate::cli::progress::Work;
 use crate::cli::pulse::by_axis::ByAxis;
 use crate::cli::pulse::has_no_segments;
 use crate::cli::pulse::waves::ending;
 use crate::cli::report::{Outcome, Report, conclude};
-use crate::cli::run::{Arguments, in_waves, options};
+use crate::cli::setup::Setup;
+use crate::cli::simulate::{Stage, with_waves};
 use crate::cli::source::Source;
-use crate::cli::traces::{Focus, Traces};
+use crate::cli::traces::{End, Focus};
 use crate::cli::waves_of::System;
 use motion_rtl::circuits::pulse_interpolator::{AXIS_NAMES, Groups};
 use motion_rtl::hdl::{Circuit, Observer, RunError, model};
@@ -180,14 +182,18 @@ fn member(
     })
 }
 
-/// Window of the save file: the second group begins in it.
-fn focus(job: &Job, played: &[Played; 2]) -> Focus {
+/// The end of a run; the second group begins in its window.
+fn end(job: &Job, played: &[Played; 2]) -> End {
     let unit = job.members[0].stored.group.period;
-    Focus {
+    let focus = Focus {
         action: played[1].begun,
         before: unit,
         shown: UNITS_SHOWN * unit,
         overview: &OVERVIEW,
+    };
+    End {
+        ticks: played[0].ticks,
+        focus,
     }
 }
 
@@ -207,7 +213,7 @@ pub fn systems(job: &Job) -> Vec<System<'_>> {
                 let ends = played.axes.iter().map(|axis| axis.position());
                 names.into_iter().zip(ends)
             });
-            Ok(ending(played[0].ticks, focus(job, &played), ends))
+            Ok(ending(end(job, &played), ends))
         };
         Ok((circuit, model, run))
     };
@@ -217,26 +223,26 @@ pub fn systems(job: &Job) -> Vec<System<'_>> {
 /// Has both groups play.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     has_no_segments(arguments)?;
-    let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
+    let setup = Setup::new(arguments, &job.loaded, &job.stem)?;
     let circuit = circuit(&job.members);
-    let model = model(&circuit).map_err(RunError::from)?;
     let ticks = ticks(job);
-    let scenario = (&job.loaded, job.stem.as_str());
-    let traces = Traces::begin((&model, &circuit), arguments, scenario, &options, ticks)?;
-    let work = Work {
-        ticks,
-        runs: 1,
-        seconds: ticks as f64 * TICK_S,
-        in_waves: in_waves(arguments, &options, ticks),
+    let stage = Stage {
+        circuit: &circuit,
+        model: &model(&circuit).map_err(RunError::from)?,
+        subject: &job.stem,
+        work: Work {
+            ticks,
+            runs: 1,
+            seconds: ticks as f64 * TICK_S,
+        },
     };
-    progress::run(&job.stem, work);
-    let (played, mut files) = traces.play(
-        &model,
-        |observer| Ok(play(&circuit, &job.members, observer)?),
-        |played| (focus(job, played), played[0].ticks),
-    )?;
+    let (played, mut files) = with_waves(&setup, &stage, |observer| {
+        let played = play(&circuit, &job.members, observer)?;
+        let end = end(job, &played);
+        Ok((played, end))
+    })?;
     files.write("svg", &draw(job, &played))?;
-    conclude(arguments, &options, files, Summary::new(job, &played))
+    conclude(&setup, files, Summary::new(job, &played))
 }
 
 /// The positions of each group's axes over time.

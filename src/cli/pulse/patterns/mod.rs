@@ -3,10 +3,11 @@
 pub mod groups;
 mod summary;
 
-use super::{has_no_segments, own, simulate};
+use super::{has_no_segments, own, play_table};
 use crate::cli::Failure;
+use crate::cli::arguments::Arguments;
 use crate::cli::report::conclude;
-use crate::cli::run::{Arguments, options};
+use crate::cli::setup::Setup;
 use crate::cli::source::Source;
 use crate::cli::table::ratio;
 use crate::cli::waves_of::System;
@@ -210,18 +211,16 @@ pub fn systems(job: &Job) -> Vec<System<'_>> {
 /// Plays patterns.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     has_no_segments(arguments)?;
-    let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
+    let setup = Setup::new(arguments, &job.loaded, &job.stem)?;
     let stored = &job.stored;
-    let (played, mut files) = simulate(
-        arguments,
-        (&job.loaded, &job.stem),
+    let (played, mut files) = play_table(
+        &setup,
         (&stored.group, &stored.played),
-        &options,
         (&mut stored.computer(), job.motors.clone()),
         stored.writes.is_empty(),
     )?;
     files.write("svg", &draw(job, &played))?;
-    conclude(arguments, &options, files, Summary::new(job, &played))
+    conclude(&setup, files, Summary::new(job, &played))
 }
 
 /// The positions at the end of every unit time: Y over X, and each axis over time.
