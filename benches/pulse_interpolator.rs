@@ -5,11 +5,12 @@
 
 use divan::counter::ItemsCount;
 use motion_rtl::circuits::pulse_interpolator::{Group, Pattern, Variant, Widths};
-use motion_rtl::hdl::{Observer, RunError, Sample, Simulator, zero};
+use motion_rtl::hdl::zero;
 use motion_rtl::input::read_text;
 use motion_rtl::jobs::pulse_interpolator::job::{self, fast_forward, play};
 use motion_rtl::jobs::pulse_interpolator::{Table, compile};
 use motion_rtl::scenario::{Loaded, Scenario};
+use motion_rtl::sim::{Observer, RunError, Sample, Simulator};
 use motion_rtl::trace::{Clock, Options, Vcd};
 use std::io;
 use std::ops::ControlFlow;

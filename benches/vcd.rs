@@ -3,8 +3,8 @@
 //! writes, as FST.
 
 use divan::counter::ItemsCount;
-use motion_rtl::hdl::Observer;
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
+use motion_rtl::sim::Observer;
 use motion_rtl::trace::{Clock, Fst, Options, Vcd, VcdBehind};
 use std::fs::File;
 use std::io;

@@ -22,7 +22,7 @@
 //!
 //! ```
 //! use motion_rtl::circuits::pulse_interpolator::{Group, Pattern, Variant, Widths};
-//! use motion_rtl::hdl::Simulator;
+//! use motion_rtl::sim::Simulator;
 //!
 //! let pattern = Pattern { base: 0, last: 0, cyclic: true, period: 1000 };
 //! let mut group = Group::free_running(2, Widths::default(), Variant::Safe, pattern);
@@ -52,7 +52,7 @@
 //! input in every reachable state.
 //!
 //! ```
-//! use motion_rtl::hdl::prelude::*;
+//! use motion_rtl::prelude::*;
 //!
 //! #[derive(Debug, Clone)]
 //! struct Watchdog {
@@ -97,7 +97,7 @@
 //! ```
 //! use motion_rtl::circuits::blocks::{EnableCounter, QuadratureCounter};
 //! use motion_rtl::circuits::blocks::{enable_counter, quadrature_counter};
-//! use motion_rtl::hdl::prelude::*;
+//! use motion_rtl::prelude::*;
 //!
 //! /// Counts of an encoder between two ends of a gate.
 //! #[derive(Debug, Clone)]
@@ -139,7 +139,7 @@
 //!     ways.extend(way);
 //! }
 //! assert_eq!(ways[1..], [25, 25, 25]);
-//! # Ok::<(), motion_rtl::hdl::RunError>(())
+//! # Ok::<(), motion_rtl::sim::RunError>(())
 //! ```
 //!
 //! # A golden model for my HDL
@@ -173,33 +173,72 @@
 //!
 //! `rtl_notes/golden_model.md` does it with a design in Verilog;
 //! [`verilog::Verilog`] prints any circuit with a testbench.
+//!
+//! # Floors
+//!
+//! A module uses only modules of the floors below it, and a test reads every path. The lowest
+//! floor comes first, here and in the list of modules. The program stands above all of them.
+//!
+//! | modules | floor |
+//! |---|---|
+//! | [`netlist`] | nodes, signals and modules of a netlist; mistakes of a circuit |
+//! | [`engine`], [`hdl`] | netlists made to run; the language that makes netlists |
+//! | [`sim`] | simulator of a circuit, observers, elaborated circuits without their type |
+//! | [`files`], [`nearest`], [`picture`] | files replaced as a whole, nearest names, drawings |
+//! | [`settings`] | settings with defaults, ranges and units, and their errors |
+//! | [`input`], [`trace`] | G-code, HPGL and position logs; waves, stimuli, timing charts |
+//! | [`compare`], [`plan`], [`plant`], [`verilog`] | comparison of waves, speed profiles, motors, Verilog |
+//! | [`path`] | paths in space |
+//! | [`check`] | proofs, sweeps, random stimuli |
+//! | [`prelude`] | names for writing and testing a circuit |
+//! | [`circuits`] | the circuits of the patents |
+//! | [`jobs`], [`registry`] | control computers that feed the circuits; the catalogue |
+//! | [`scenario`] | scenario files |
 #![deny(unsafe_code)]
 
 #[warn(missing_docs)]
-pub mod check;
-pub mod circuits;
-#[warn(missing_docs)]
-pub mod compare;
+pub mod netlist;
+
 #[warn(missing_docs)]
 pub mod engine;
-pub mod files;
 #[warn(missing_docs)]
 pub mod hdl;
-pub mod input;
-pub mod jobs;
+
+#[warn(missing_docs)]
+pub mod sim;
+
+pub mod files;
 pub mod nearest;
-pub mod path;
 pub mod picture;
+
+pub mod settings;
+
+pub mod input;
+#[warn(missing_docs)]
+pub mod trace;
+
+#[warn(missing_docs)]
+pub mod compare;
 pub mod plan;
 pub mod plant;
 #[warn(missing_docs)]
-pub mod registry;
-pub mod scenario;
-pub mod settings;
-#[warn(missing_docs)]
-pub mod trace;
-#[warn(missing_docs)]
 pub mod verilog;
+
+pub mod path;
+
+#[warn(missing_docs)]
+pub mod check;
+
+#[warn(missing_docs)]
+pub mod prelude;
+
+pub mod circuits;
+
+pub mod jobs;
+#[warn(missing_docs)]
+pub mod registry;
+
+pub mod scenario;
 
 /// The code in the notes on conventions is compiled and run as tests.
 #[cfg(doctest)]

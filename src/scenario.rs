@@ -8,6 +8,8 @@ mod loaded;
 mod program;
 pub mod pulse_interpolator;
 mod run;
+#[cfg(test)]
+mod turntable;
 
 pub use loaded::Loaded;
 pub use program::Program;

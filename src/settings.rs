@@ -14,8 +14,6 @@ pub(crate) use table::{
 };
 pub use table::{Table, Within};
 
-use crate::engine::EngineError;
-use crate::hdl::RunError;
 use std::fmt::{self, Display};
 use std::ops::RangeInclusive;
 
@@ -121,22 +119,6 @@ impl Display for SettingError {
     }
 }
 
-/// Reasons why a job cannot be played.
-#[derive(thiserror::Error)]
-pub enum JobError {
-    /// A setting that a circuit or a plant does not take.
-    #[error(transparent)]
-    Setting(#[from] SettingError),
-    /// An error of an observer.
-    #[error(transparent)]
-    Run(#[from] RunError),
-    /// The circuit cannot be run.
-    #[error(transparent)]
-    Engine(#[from] EngineError),
-}
-
-crate::hdl::debug_as_display!(JobError);
-
 /// Refuses a value that is out of range or not a number.
 ///
 /// # Errors
@@ -226,7 +208,6 @@ impl WholeTime {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::path::circle::CircleError;
 
     #[test]
     fn rounding_of_floating_point_is_not_shown() {
@@ -234,9 +215,6 @@ mod tests {
         assert_eq!(tidy(-0.1 - 0.2), -0.3);
         assert_eq!(tidy(1e9 + 0.01), 1e9 + 0.01);
         assert!(tidy(f64::NAN).is_nan());
-        let rise = 99.999_999_999_999_99;
-        let error = CircleError::Helix { rise };
-        assert_eq!(error.to_string(), "climbs 100 mm along its axis: a helix");
     }
 
     #[test]

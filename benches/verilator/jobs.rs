@@ -9,7 +9,7 @@ use motion_rtl::circuits::machine::Machine;
 use motion_rtl::circuits::pulse_interpolator::pattern_memory::WritePort;
 use motion_rtl::circuits::pulse_interpolator::{Group, Variant, Widths, group};
 use motion_rtl::circuits::trajectory_controller::{self, TrajectoryController};
-use motion_rtl::hdl::{Simulator, State, zero};
+use motion_rtl::hdl::zero;
 use motion_rtl::input::{Drawing, read_path};
 use motion_rtl::jobs;
 use motion_rtl::jobs::arc_generator::job::arc_generator;
@@ -24,6 +24,7 @@ use motion_rtl::jobs::trajectory_controller::job as trajectory;
 use motion_rtl::path::pieces::{Speeds, from_drawing, from_points};
 use motion_rtl::plant::TwoMassAxis;
 use motion_rtl::scenario::{Loaded, Scenario};
+use motion_rtl::sim::{Simulator, State};
 use std::path::Path;
 
 /// A circuit and what goes into it.

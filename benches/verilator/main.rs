@@ -21,7 +21,8 @@ mod stimulus;
 mod theirs;
 
 use jobs::{Clock, Job};
-use motion_rtl::hdl::{Circuit, Simulator};
+use motion_rtl::hdl::Circuit;
+use motion_rtl::sim::Simulator;
 use ours::{Ours, Waves, Way};
 use std::time::{Duration, Instant};
 use stimulus::Stimulus;

@@ -2,7 +2,8 @@
 
 use super::stimulus::{Replay, Stimulus};
 use super::theirs::ROTATION;
-use motion_rtl::hdl::{Circuit, Observer, RunError, Sample, Simulator};
+use motion_rtl::hdl::Circuit;
+use motion_rtl::sim::{Observer, RunError, Sample, Simulator};
 use motion_rtl::trace::{Clock, Fst, Options, Vcd, VcdBehind};
 use std::fs::File;
 use std::ops::ControlFlow;

@@ -1,6 +1,8 @@
 //! Inputs of a circuit during a job, recorded once and applied to both models.
 
-use motion_rtl::hdl::{Circuit, Declarations, Observer, Role, RunError, Sample, Simulator};
+use motion_rtl::hdl::{Circuit, Declarations};
+use motion_rtl::netlist::Role;
+use motion_rtl::sim::{Observer, RunError, Sample, Simulator};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;

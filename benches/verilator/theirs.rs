@@ -1,7 +1,8 @@
 //! The exported Verilog, compiled by Verilator.
 
 use super::stimulus::Stimulus;
-use motion_rtl::hdl::{Circuit, Role};
+use motion_rtl::hdl::Circuit;
+use motion_rtl::netlist::Role;
 use motion_rtl::verilog::{SourceFile, Verilog};
 use std::cell::RefCell;
 use std::fmt::Write as _;

@@ -1,5 +1,5 @@
 use motion_rtl::circuits::pulse_interpolator::{UnitLaw, Variant, unit_law::In};
-use motion_rtl::hdl::Simulator;
+use motion_rtl::sim::Simulator;
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
 use std::{error::Error, fs::File, path::Path};
 

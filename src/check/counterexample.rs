@@ -1,6 +1,8 @@
 use super::Fault;
 use crate::engine::Watch;
-use crate::hdl::{self, Circuit, Declaration, Model, Role, RunError, Value};
+use crate::hdl::{Circuit, Declaration, Value};
+use crate::netlist::Role;
+use crate::sim::{Elaborated, RunError};
 use crate::trace::value::show;
 use crate::trace::{self, Clock};
 use std::fmt::{self, Write as _};
@@ -32,7 +34,7 @@ pub struct Counterexample<C: Circuit> {
 
 impl<C: Circuit> Counterexample<C> {
     pub(super) fn new(
-        model: &Model,
+        model: &Elaborated,
         (inputs, ports): (Vec<C::In<Value>>, Vec<Vec<u64>>),
         invariant: String,
         fault: Fault,
@@ -57,7 +59,7 @@ impl<C: Circuit> Counterexample<C> {
     pub fn save(&self, circuit: &C, clock: Clock, dir: &Path) -> Result<Vec<PathBuf>, RunError> {
         let stem = stem(circuit.name(), &self.invariant);
         trace::play(
-            &hdl::model(circuit)?,
+            &Elaborated::new(circuit)?,
             &mut self.ports.iter().cloned(),
             clock,
             dir,
@@ -100,7 +102,7 @@ fn report(tick: u64, invariant: &str, message: &str, signals: &[String]) -> Stri
 
 /// Returns the table of the last ticks, one signal per row. Signals at fault come first and are
 /// marked; the last column shows the registers after the edge.
-fn table(model: &Model, inputs: &[Vec<u64>], at_fault: &[String]) -> String {
+fn table(model: &Elaborated, inputs: &[Vec<u64>], at_fault: &[String]) -> String {
     let leaves = &model.declarations().leaves;
     let mut engine = model.engine(Watch::All);
     let first = inputs.len().saturating_sub(TICKS);

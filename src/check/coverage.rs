@@ -1,4 +1,6 @@
-use crate::hdl::{Declarations, Described, LeafView as View, Role, RunError};
+use crate::hdl::Declarations;
+use crate::netlist::Role;
+use crate::sim::{Described, LeafView as View, RunError};
 use std::fmt;
 use std::ops::{ControlFlow, Range};
 
@@ -153,8 +155,8 @@ impl Coverage {
     }
 }
 
-impl<C: crate::hdl::Circuit> crate::hdl::Observer<C> for Coverage {
-    fn sample(&mut self, now: &crate::hdl::Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+impl<C: crate::hdl::Circuit> crate::sim::Observer<C> for Coverage {
+    fn sample(&mut self, now: &crate::sim::Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.tick(now.tick, now.view());
         Ok(ControlFlow::Continue(()))
     }

@@ -1,7 +1,7 @@
 use super::records::Records;
 use super::{Coverage, Stimulus};
 use crate::engine::Watch;
-use crate::hdl::{Described, LeafView as View, Model, RunError};
+use crate::sim::{Described, Elaborated, LeafView as View, RunError};
 use crate::trace::{Clock, Dump, Layout, Lines, Options, OutputFile, VcdFile};
 use std::io::{self, Write};
 
@@ -56,7 +56,7 @@ impl Drive {
     /// Returns the errors of [`drive`].
     pub fn run(
         &self,
-        model: &Model,
+        model: &Elaborated,
         waves: &mut dyn Write,
         stimulus: &mut dyn Write,
         expected: &mut dyn Write,

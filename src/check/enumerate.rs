@@ -1,6 +1,8 @@
 use crate::engine::EngineError;
-use crate::hdl::pack::{bits_of, input_widths, inputs};
-use crate::hdl::{Circuit, Value};
+use crate::hdl::{
+    Circuit, Value,
+    pack::{bits_of, input_widths, inputs},
+};
 
 /// Number of bits that is too large to enumerate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -25,7 +27,7 @@ pub enum CheckError {
     Engine(#[from] EngineError),
 }
 
-crate::hdl::debug_as_display!(CheckError);
+crate::netlist::debug_as_display!(CheckError);
 
 impl TooWide {
     /// Returns an error if there are more than `most` bits.

@@ -1,5 +1,6 @@
 use crate::engine::{Engine, EngineError};
-use crate::hdl::{self, Circuit, Model, Observer, Registers, RunError, Sample};
+use crate::hdl::{Circuit, Registers};
+use crate::sim::{Elaborated, Observer, RunError, Sample};
 use std::fmt;
 use std::ops::ControlFlow;
 
@@ -55,7 +56,7 @@ struct Names {
 }
 
 impl Names {
-    fn of(model: Result<Model, EngineError>) -> Self {
+    fn of(model: Result<Elaborated, EngineError>) -> Self {
         let mut names = Names::default();
         let Ok(model) = model else {
             return names;
@@ -109,7 +110,7 @@ impl<'f, C: Circuit> Invariants<'f, C> {
     /// A circuit that cannot be elaborated has none; it can be neither proved nor run.
     pub fn of(circuit: &C) -> Self {
         Invariants {
-            names: Names::of(hdl::model(circuit)),
+            names: Names::of(Elaborated::new(circuit)),
             others: Vec::new(),
         }
     }

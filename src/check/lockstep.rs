@@ -1,10 +1,9 @@
 use super::Pair;
 use super::{Fault, Verdict};
 use crate::engine::Engine;
-use crate::hdl::outline::Shown;
-use crate::hdl::pack::input_widths;
-use crate::hdl::{Circuit, Observer, Pass, Sample};
-use crate::hdl::{Field, Kind, Outline, Path, Role, RunError, Shape};
+use crate::hdl::{Circuit, Outline, Pass, Path, outline::Shown, pack::input_widths};
+use crate::netlist::{Field, Kind, Role, Shape};
+use crate::sim::{Observer, RunError, Sample};
 use crate::trace::value::number;
 use std::fmt;
 use std::ops::ControlFlow;

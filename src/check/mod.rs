@@ -17,7 +17,7 @@
 //!
 //! ```
 //! use motion_rtl::circuits::blocks::{EnableCounter, enable_counter};
-//! use motion_rtl::hdl::prelude::*;
+//! use motion_rtl::prelude::*;
 //!
 //! /// A counter, and whether it pulsed a tick ago.
 //! #[derive(Debug, Clone)]
@@ -62,6 +62,8 @@ mod drive;
 mod enumerate;
 mod invariant;
 mod lockstep;
+#[cfg(test)]
+mod mutated;
 mod pair;
 mod reach;
 mod records;

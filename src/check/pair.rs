@@ -1,10 +1,10 @@
 //! Two circuits side by side.
 
-use crate::hdl::leaves::Nodes;
-use crate::hdl::pack::tokens;
-use crate::hdl::part::Counted;
-use crate::hdl::{Circuit, Nothing, Record, Sink, Site, Source, View, Walk, Wire, view};
-use crate::hdl::{Field, Role, Shape};
+use crate::hdl::{
+    Circuit, Nothing, Record, Sink, Source, View, Walk, Wire, leaves::Nodes, pack::tokens,
+    part::Counted, view,
+};
+use crate::netlist::{Field, Role, Shape, Site};
 use std::fmt;
 use std::ops::Deref;
 

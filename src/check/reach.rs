@@ -5,9 +5,14 @@ use super::visited::Visited;
 use super::{CheckError, Fault, TooWide};
 use super::{Counterexample, Invariants};
 use crate::engine::Engine;
-use crate::hdl::pack::{bits_of, input_widths, joined, register_widths, registers_of, words};
-use crate::hdl::sample::{Known, all_registers};
-use crate::hdl::{self, Circuit, Model, Registers, Sample, Value};
+use crate::hdl::{
+    self, Circuit, Registers, Value,
+    pack::{bits_of, input_widths, joined, register_widths, registers_of, words},
+};
+use crate::sim::{
+    Elaborated, Sample,
+    sample::{Known, all_registers},
+};
 use std::cell::RefCell;
 use std::fmt;
 
@@ -115,7 +120,7 @@ pub struct Reach<'a, C: Circuit> {
     progress: Option<Box<Report<'a>>>,
     limit: u32,
     transitions: u64,
-    model: Option<Model>,
+    model: Option<Elaborated>,
     bitmap_bits: usize,
 }
 
@@ -167,7 +172,7 @@ impl<'a, C: Circuit> Reach<'a, C> {
     }
 
     /// Searches this netlist of the circuit: one that was elaborated before, or that has a fault.
-    pub fn model(mut self, model: Model) -> Self {
+    pub fn model(mut self, model: Elaborated) -> Self {
         self.model = Some(model);
         self
     }
@@ -208,7 +213,7 @@ impl<'a, C: Circuit> Reach<'a, C> {
     fn search(mut self, simulated: bool) -> Result<Outcome<C>, CheckError> {
         let model = match self.model.take() {
             Some(model) => model,
-            None => hdl::model(self.circuit)?,
+            None => Elaborated::new(self.circuit)?,
         };
         let widths = input_widths(self.circuit);
         let wide = widths.iter().sum();

@@ -3,7 +3,8 @@
 use super::Random;
 use super::stimulus::magnitude;
 use crate::engine::Engine;
-use crate::hdl::{Declarations, Role};
+use crate::hdl::Declarations;
+use crate::netlist::Role;
 use std::collections::BTreeMap;
 
 /// Number of words in a record of a path.

@@ -6,7 +6,8 @@ use super::search::{Report, Search};
 use super::visited::Visited;
 use crate::engine::sliced::{LANES, Tick, Ticks};
 use crate::engine::{Engine, Watch};
-use crate::hdl::{Model, Role};
+use crate::netlist::Role;
+use crate::sim::Elaborated;
 
 /// Questions of a search that depend on the circuit's type.
 pub(super) trait Judge {
@@ -47,7 +48,7 @@ pub(super) struct Searching<'j> {
 impl Searching<'_> {
     pub(super) fn run(
         &self,
-        model: &Model,
+        model: &Elaborated,
         visited: Visited,
         (limits, progress): ((u32, u64), Option<Box<Report<'_>>>),
         simulated: bool,
@@ -228,7 +229,7 @@ impl One<'_> {
 struct Packing(Vec<(usize, usize)>);
 
 impl Packing {
-    fn of(model: &Model) -> Self {
+    fn of(model: &Elaborated) -> Self {
         let mut bit = 0;
         let leaves = model.leaves(Role::Register).map(|leaf| {
             bit += usize::from(model.flat().width(leaf));

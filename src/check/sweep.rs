@@ -2,9 +2,11 @@ use super::Counterexample;
 use super::{CheckError, Fault, TooWide};
 use crate::engine::sliced::{LANES, Run, Sliced};
 use crate::engine::{Engine, Watch, passes};
-use crate::hdl::pack::{bits_of, input_widths, joined, widths, words};
-use crate::hdl::{self, Circuit, Shapes, Value};
-use crate::hdl::{Declaration, Model};
+use crate::hdl::{
+    self, Circuit, Declaration, Shapes, Value,
+    pack::{bits_of, input_widths, joined, widths, words},
+};
+use crate::sim::Elaborated;
 use crate::trace::value::show;
 use rayon::prelude::*;
 use std::fmt;
@@ -71,7 +73,7 @@ impl<C: Circuit> fmt::Debug for Swept<C> {
 pub struct Sweep<'a, W: Law> {
     law: &'a W,
     range: Option<Range<u64>>,
-    model: Option<Model>,
+    model: Option<Elaborated>,
     progress: Option<&'a (dyn Fn(u64) + Sync)>,
 }
 
@@ -107,15 +109,15 @@ impl<'a, W: Law> Sweep<'a, W> {
     }
 
     /// Checks this netlist of the law: one that was elaborated before, or that has a fault.
-    pub fn model(mut self, model: Model) -> Self {
+    pub fn model(mut self, model: Elaborated) -> Self {
         self.model = Some(model);
         self
     }
 
-    fn netlist(&self) -> Result<Model, CheckError> {
+    fn netlist(&self) -> Result<Elaborated, CheckError> {
         match &self.model {
             Some(model) => Ok(model.clone()),
-            None => Ok(hdl::model(self.law)?),
+            None => Ok(Elaborated::new(self.law)?),
         }
     }
 
@@ -170,7 +172,7 @@ impl<'a, W: Law> Sweep<'a, W> {
     /// first that is wrong.
     fn checked(
         self,
-        model: &Model,
+        model: &Elaborated,
         check: impl Fn(Range<u64>) -> (u64, Option<u64>) + Sync,
     ) -> Result<Swept<W>, CheckError> {
         let held = AtomicU64::new(0);
@@ -305,7 +307,7 @@ impl<'a, W: Law> Cases<'a, W> {
 }
 
 /// Replays a wrong case in simulation.
-fn replayed<W: Law>(law: &W, model: &Model, index: u64) -> Counterexample<W> {
+fn replayed<W: Law>(law: &W, model: &Elaborated, index: u64) -> Counterexample<W> {
     let cases = Cases::of(law);
     let case: W::In<Value> = hdl::inputs(law, bits_of(index));
     let leaves = &model.declarations().leaves;

@@ -1,6 +1,6 @@
 //! Parts of a circuit and their connections, as `list` prints them.
 
-use motion_rtl::hdl::{Kind, Shape};
+use motion_rtl::netlist::{Kind, Shape};
 use motion_rtl::verilog;
 use serde::Serialize;
 use std::collections::BTreeMap;

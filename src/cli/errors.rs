@@ -1,8 +1,8 @@
 //! Errors as JSON on standard output, where `--json` is given.
 
 use super::{Failure, plain, voice};
-use motion_rtl::hdl::RunError;
 use motion_rtl::input::Fault;
+use motion_rtl::sim::RunError;
 use serde::Serialize;
 use std::io::{Write as _, stderr, stdout};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};

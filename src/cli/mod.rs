@@ -53,10 +53,10 @@ mod wave_format;
 mod waves_of;
 mod written;
 
-use motion_rtl::hdl::RunError;
 use motion_rtl::input::{Fault, LISTED, SHOWN, shown};
+use motion_rtl::jobs::JobError;
 use motion_rtl::registry::WrongPair;
-use motion_rtl::settings::JobError;
+use motion_rtl::sim::RunError;
 use std::borrow::Cow;
 use std::io::{self, Write};
 use std::process::ExitCode;

@@ -5,7 +5,8 @@ use super::{Failure, print};
 use clap::Args;
 use motion_rtl::check::Stimulus;
 use motion_rtl::engine::{Engine, Inputs, Watch, report};
-use motion_rtl::hdl::{Circuit, Described, Model, Observer, RunError, Sample};
+use motion_rtl::hdl::Circuit;
+use motion_rtl::sim::{Described, Elaborated, Observer, RunError, Sample};
 use std::ops::ControlFlow;
 
 /// Arguments of `plan`.
@@ -54,13 +55,13 @@ pub(super) fn of_job(circuit: &impl Described, inputs: &Inputs) -> Result<String
 }
 
 /// An engine that only has the ports out looked at, and counts.
-fn counting(model: &Model) -> Engine {
+fn counting(model: &Elaborated) -> Engine {
     let mut engine = model.engine(Watch::Leaves(&model.ports_out()));
     engine.interpret();
     engine
 }
 
-fn text(model: &Model, engine: &Engine, ticks: u64) -> String {
+fn text(model: &Elaborated, engine: &Engine, ticks: u64) -> String {
     let leaves = &model.declarations().leaves;
     let name = |leaf: usize| {
         let path = leaves[leaf].path();

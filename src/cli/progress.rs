@@ -3,7 +3,8 @@
 
 use super::voice;
 use indicatif::{ProgressBar, ProgressStyle};
-use motion_rtl::hdl::{Circuit, Observer, RunError, Sample};
+use motion_rtl::hdl::Circuit;
+use motion_rtl::sim::{Observer, RunError, Sample};
 use std::io::{IsTerminal, Write, stderr};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

@@ -5,7 +5,8 @@ use super::files::Files;
 use super::progress::{self, Work};
 use super::setup::Setup;
 use super::traces::{End, Traces};
-use motion_rtl::hdl::{Circuit, Model, Observer};
+use motion_rtl::hdl::Circuit;
+use motion_rtl::sim::{Elaborated, Observer};
 
 /// A circuit to be played.
 #[derive(Debug)]
@@ -13,7 +14,7 @@ pub struct Stage<'a, C> {
     /// The circuit alone, which is printed as Verilog.
     pub circuit: &'a C,
     /// The circuit with its plant, which the waves show.
-    pub model: &'a Model,
+    pub model: &'a Elaborated,
     /// Name of the work in messages of progress.
     pub subject: &'a str,
     /// Expected length of the run and of those beside it.

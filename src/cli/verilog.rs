@@ -6,7 +6,7 @@ use super::files::Files;
 use super::{Failure, print, warn};
 use clap::Args;
 use motion_rtl::check::{Drive, Untoggled};
-use motion_rtl::hdl::Role;
+use motion_rtl::netlist::Role;
 use motion_rtl::trace::Clock;
 use motion_rtl::verilog::Verilog;
 use std::fmt::Write as _;

@@ -8,8 +8,9 @@ use super::report::{Outcome, Report, conclude};
 use super::setup::Setup;
 use super::simulate::{Stage, with_waves};
 use super::traces::End;
-use motion_rtl::hdl::{Circuit, Model, Observer};
+use motion_rtl::hdl::Circuit;
 use motion_rtl::scenario::Loaded;
+use motion_rtl::sim::{Elaborated, Observer};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -39,7 +40,7 @@ pub struct Ending {
 }
 
 /// A circuit with the model that the waves show, its plant included, and the run of it.
-pub type Staged<C, P> = (C, Model, P);
+pub type Staged<C, P> = (C, Elaborated, P);
 
 impl<'a> System<'a> {
     /// Creates a system with its name in the summary and the approximate ticks of its run; `make`

@@ -172,7 +172,7 @@ pub struct Memory {
 }
 
 /// Write port of a memory; an address has no effect past the last word.
-pub type Port = crate::hdl::netlist::Port<Id>;
+pub type Port = crate::netlist::Port<Id>;
 
 /// Place of a leaf of a walk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -207,7 +207,7 @@ impl fmt::Debug for Instance {
 pub enum EngineError {
     /// The circuit has mistakes.
     #[error(transparent)]
-    Circuit(#[from] crate::hdl::Wrong),
+    Circuit(#[from] crate::netlist::Wrong),
     /// A node depends on itself.
     #[error("{module}: node {node} is computed from nodes that are not settled before it")]
     Circle {
@@ -239,7 +239,7 @@ pub enum EngineError {
     Empty,
 }
 
-crate::hdl::debug_as_display!(EngineError);
+crate::netlist::debug_as_display!(EngineError);
 
 /// Returns a mask of the low `width` bits.
 #[inline]
@@ -265,12 +265,12 @@ impl Flat {
 
     /// Returns the leaves of a part of the circuit.
     #[inline]
-    pub fn part(&self, role: crate::hdl::Role) -> std::ops::Range<usize> {
+    pub fn part(&self, role: crate::netlist::Role) -> std::ops::Range<usize> {
         let [inputs, registers] = self.parts;
         match role {
-            crate::hdl::Role::Input => 0..inputs,
-            crate::hdl::Role::Register => inputs..registers,
-            crate::hdl::Role::Net => registers..self.leaves.len(),
+            crate::netlist::Role::Input => 0..inputs,
+            crate::netlist::Role::Register => inputs..registers,
+            crate::netlist::Role::Net => registers..self.leaves.len(),
         }
     }
 

@@ -1,8 +1,7 @@
 //! Flattening: turns a design of modules into one netlist.
 
 use super::flat::{EngineError, Flat, Id, Instance, Memory, Node, Op, Place, Port, Register, mask};
-use crate::hdl::netlist::{self, Design, Module, Operator, Value};
-use crate::hdl::{Kind, Role, Shape};
+use crate::netlist::{self, Design, Kind, Module, Operator, Role, Shape, Value};
 use std::collections::HashMap;
 
 impl Flat {

@@ -35,7 +35,7 @@ pub enum InputError {
     },
 }
 
-crate::hdl::debug_as_display!(InputError);
+crate::netlist::debug_as_display!(InputError);
 
 impl InputError {
     /// Returns the error for a word that is wider than a port of `width` bits.

@@ -1,7 +1,7 @@
 use super::flat::Flat;
 use super::passes;
 use super::plan::Plan;
-use crate::hdl::netlist::Design;
+use crate::netlist::Design;
 use std::sync::Arc;
 
 /// Circuit that is ready to run; engines share it.
@@ -81,7 +81,7 @@ impl Program {
 /// Returns the leaves that are output ports of a design: public nets and registers of its
 /// outermost module.
 pub(crate) fn ports_out(design: &Design) -> Vec<usize> {
-    use crate::hdl::netlist::Register;
+    use crate::netlist::Register;
     let Some(module) = design.modules.last() else {
         return Vec::new();
     };

@@ -1,17 +1,16 @@
 //! The module under construction, and the functions that add nodes to it.
 
-use super::mistake::{Mistake, Wrong};
-use super::record::{BIT, MemoryShape, Site};
-use crate::hdl::netlist::{
-    Assertion, Child, Memory, Module, Node, Operator, Parameter, Port, Register, Setting, Signal,
+use super::record::MemoryShape;
+use crate::netlist::{
+    Assertion, BIT, Child, Kind, Memory, Mistake, Module, Node, Operator, Parameter, Port,
+    Register, Role, Setting, Shape, Signal, Site, Wrong,
 };
-use crate::hdl::{Kind, Role, Shape};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::cell::RefCell;
 use std::mem;
 use std::panic::Location;
 
-pub use crate::hdl::netlist::Id;
+pub use crate::netlist::Id;
 
 /// All modules under construction: a circuit builds the modules inside it while its `tick` runs.
 #[derive(Default)]
@@ -501,7 +500,7 @@ impl Builder {
 /// Returns a signal without a driver.
 pub(super) fn signal(
     name: String,
-    field: &'static crate::hdl::Field,
+    field: &'static crate::netlist::Field,
     role: Role,
     shape: Shape,
 ) -> Signal {

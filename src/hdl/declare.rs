@@ -1,8 +1,7 @@
 //! Signals by name, in the order of a walk.
 
 use super::Circuit;
-use super::record::unsigned;
-use super::signal::{Field, Role, Shape};
+use crate::netlist::{Field, Role, Shape, unsigned};
 use std::sync::Arc;
 
 /// Position of a walk: the scopes around the next leaf, and the part of the circuit that the leaf
@@ -160,7 +159,7 @@ pub struct Declarations {
 
 impl Declarations {
     /// Returns the signals of a circuit, in the order of its leaves. Power-on values are left at
-    /// 0; a [`Model`](super::Model) has them.
+    /// 0; an [`Elaborated`](crate::sim::Elaborated) circuit has them.
     pub fn of<C: Circuit>(circuit: &C) -> Self {
         super::declarations(circuit, &mut |_| {})
     }

@@ -4,15 +4,14 @@
 use super::build::{self, Aside, Builder, builder, elaboration, mistake, signal};
 use super::leaves::Leaves;
 use super::memory::{State, Written};
-use super::mistake::Wrong;
 use super::mutation;
 use super::names;
-use super::netlist::{Design, Id, Module, Port, Register, Setting, Value};
 use super::part::{Counted, pair};
 use super::property;
-use super::record::{Record, Site, Walk};
+use super::record::{Record, Walk};
 use super::view::{self, Edge, Shapes, Wire};
-use super::{Circuit, More, Nothing, Role};
+use super::{Circuit, More, Nothing};
+use crate::netlist::{Design, Id, Module, Port, Register, Role, Setting, Site, Value, Wrong};
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -113,14 +112,14 @@ fn end(name: &str, about: &'static str, nets: Nets) -> (usize, Vec<Setting>) {
         };
         for (instance, signal) in hidden {
             let (name, site) = &sites[instance];
-            elaboration.mistakes.push(super::Mistake {
+            elaboration.mistakes.push(crate::netlist::Mistake {
                 site: *site,
                 path: path.clone(),
                 what: format!("`{name}.{signal}` is read, but is no port: it is not declared pub"),
             });
         }
         (
-            super::netlist::enter(module, &mut elaboration.modules),
+            crate::netlist::enter(module, &mut elaboration.modules),
             settings,
         )
     })

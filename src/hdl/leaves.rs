@@ -1,10 +1,10 @@
 //! Conversion of the leaves of a circuit's records into nodes.
 
+use super::Path;
 use super::build::{self, builder, flat, masked, mistake, node, signal};
 use super::memory::Contents;
-use super::netlist::{Id, Memory, Node, Port, Register};
 use super::record::{Cells, MemoryShape, Source};
-use super::{Field, Path, Role, Shape};
+use crate::netlist::{Field, Id, Memory, Node, Port, Register, Role, Shape};
 
 /// Source that creates input ports and registers.
 #[derive(Default)]

@@ -19,7 +19,7 @@
 /// port.
 ///
 /// ```
-/// use motion_rtl::hdl::prelude::*;
+/// use motion_rtl::prelude::*;
 ///
 /// /// Counts while it is enabled.
 /// #[derive(Debug, Clone)]
@@ -86,7 +86,7 @@ macro_rules! hdl_record {
         }
 
         impl<V: $crate::hdl::View> $crate::hdl::Walk<V> for $name<V> {
-            const SITE: $crate::hdl::Site = $crate::hdl::Site {
+            const SITE: $crate::netlist::Site = $crate::netlist::Site {
                 file: file!(),
                 line: line!(),
                 column: column!(),
@@ -94,7 +94,7 @@ macro_rules! hdl_record {
 
             fn visit(
                 &self,
-                field: &'static $crate::hdl::Field,
+                field: &'static $crate::netlist::Field,
                 sink: &mut dyn $crate::hdl::Sink,
             ) {
                 sink.enter(field);
@@ -151,7 +151,7 @@ macro_rules! hdl_record_for {
         impl<V: $crate::hdl::View> $crate::hdl::Record<$circuit, V> for $name<V> {
             fn make(
                 $c: &$circuit,
-                field: &'static $crate::hdl::Field,
+                field: &'static $crate::netlist::Field,
                 source: &mut dyn $crate::hdl::Source,
             ) -> Self {
                 let _ = $c;
@@ -194,17 +194,17 @@ macro_rules! hdl_make {
     ($v:ident; $source:ident; $field:expr; [$($power_on:expr)?]; Bit) => {
         <$v as $crate::hdl::View>::bit($source.word(
             $field,
-            $crate::hdl::BIT,
+            $crate::netlist::BIT,
             $crate::hdl_power_on!($($power_on)?),
         ))
     };
     ($v:ident; $source:ident; $field:expr; [$($power_on:expr)?]; U($width:expr)) => {{
-        let shape = $crate::hdl::unsigned($width);
+        let shape = $crate::netlist::unsigned($width);
         let token = $source.word($field, shape, $crate::hdl_power_on!($($power_on)?));
         <$v as $crate::hdl::View>::u(token, shape.width)
     }};
     ($v:ident; $source:ident; $field:expr; [$($power_on:expr)?]; I($width:expr)) => {{
-        let shape = $crate::hdl::signed($width);
+        let shape = $crate::netlist::signed($width);
         let token = $source.word($field, shape, $crate::hdl_power_on!($($power_on)?));
         <$v as $crate::hdl::View>::i(token, shape.width)
     }};
@@ -338,20 +338,20 @@ macro_rules! hdl_words {
 #[doc(hidden)]
 macro_rules! hdl_field {
     ($public:vis $field:ident, [$($doc:literal)*], [Flat]) => {
-        const { &$crate::hdl::Field::named("") }
+        const { &$crate::netlist::Field::named("") }
     };
     ($public:vis $field:ident, [$($doc:literal)*], [$($format:ident $(($names:expr))?)?]) => {
         const {
-            &$crate::hdl::Field {
+            &$crate::netlist::Field {
                 doc: concat!($($doc, "\n"),*),
                 format: {
-                    let format = $crate::hdl::Format::Decimal;
-                    $( let _ = format; let format = $crate::hdl::Format::$format $(($names))?; )?
+                    let format = $crate::netlist::Format::Decimal;
+                    $( let _ = format; let format = $crate::netlist::Format::$format $(($names))?; )?
                     format
                 },
                 // Exactly `pub`: `pub(crate)` shows a signal to proofs without making it a port.
                 public: stringify!($public).len() == 3,
-                ..$crate::hdl::Field::named(stringify!($field))
+                ..$crate::netlist::Field::named(stringify!($field))
             }
         }
     };
@@ -417,7 +417,7 @@ macro_rules! hdl_choice {
         impl<V: $crate::hdl::View> $crate::hdl::Record<$name, V> for $part<V> {
             fn make(
                 of: &$name,
-                field: &'static $crate::hdl::Field,
+                field: &'static $crate::netlist::Field,
                 source: &mut dyn $crate::hdl::Source,
             ) -> Self {
                 match of {
@@ -429,14 +429,14 @@ macro_rules! hdl_choice {
         }
 
         impl<V: $crate::hdl::View> $crate::hdl::Walk<V> for $part<V> {
-            const SITE: $crate::hdl::Site = $crate::hdl::Site {
+            const SITE: $crate::netlist::Site = $crate::netlist::Site {
                 file: file!(),
                 line: line!(),
                 column: column!(),
             };
 
             // A part shows its leaves where it is settled.
-            fn visit(&self, _: &'static $crate::hdl::Field, _: &mut dyn $crate::hdl::Sink) {}
+            fn visit(&self, _: &'static $crate::netlist::Field, _: &mut dyn $crate::hdl::Sink) {}
             fn words(&self, _: &mut ::std::vec::Vec<u64>) {}
         }
 

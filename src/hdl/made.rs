@@ -5,7 +5,8 @@
 pub use super::elaborate::module;
 use super::record::{Record, Source};
 use super::view::{self, Shapes, Value};
-use super::{Circuit, Registers, Role, Signals};
+use super::{Circuit, Registers, Signals};
+use crate::netlist::Role;
 
 /// Walks over the input ports of a circuit, over all its registers, or over all its nets.
 pub fn shapes<C: Circuit>(circuit: &C, role: Role, source: &mut dyn Source) {
@@ -63,8 +64,8 @@ macro_rules! hdl_made {
             make_module module(
                 path: ::std::string::String,
                 more: $crate::hdl::More<'_>,
-            ) -> (usize, ::std::vec::Vec<$crate::hdl::netlist::Setting>);
-            make_shapes shapes(role: $crate::hdl::Role, source: &mut dyn $crate::hdl::Source) -> ();
+            ) -> (usize, ::std::vec::Vec<$crate::netlist::Setting>);
+            make_shapes shapes(role: $crate::netlist::Role, source: &mut dyn $crate::hdl::Source) -> ();
             make_places places(source: &mut dyn $crate::hdl::Source) -> $crate::hdl::Signals<Self>;
             make_inputs inputs(
                 source: &mut dyn $crate::hdl::Source,

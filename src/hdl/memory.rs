@@ -1,10 +1,9 @@
 //! Memories: handles to them, and their power-on contents.
 
 use super::build::{self, Id};
-use super::record::{Cells, MemoryShape, Site, Source, unsigned};
+use super::record::{Cells, MemoryShape, Source};
 use super::words::{Bit, U};
-use crate::hdl::Field;
-use crate::hdl::netlist::Node;
+use crate::netlist::{Field, Node, Site, unsigned};
 use bitvec::prelude::*;
 use std::sync::Arc;
 

@@ -8,11 +8,9 @@
 //!
 //! Words wrap, as registers do. Operands have the same width; a constant takes the width of the
 //! word beside it. All mistakes are found at once and reported with file, line and column
-//! ([`Wrong`]).
+//! ([`Wrong`](crate::netlist::Wrong)).
 
-mod beside;
 mod build;
-mod cost;
 mod declare;
 mod elaborate;
 mod image;
@@ -22,69 +20,38 @@ mod macros;
 #[doc(hidden)]
 pub mod made;
 mod memory;
-mod mistake;
-mod model;
 pub(crate) mod mutation;
 mod names;
-pub mod netlist;
-mod observe;
 pub(crate) mod outline;
 pub(crate) mod pack;
 pub(crate) mod part;
 mod place;
-mod ports;
 mod property;
-mod record;
-pub(crate) mod sample;
-mod signal;
-mod simulator;
-#[cfg(test)]
-mod tests;
+pub(crate) mod record;
+mod values;
 pub(crate) mod view;
 mod words;
 
 pub use crate::{hdl_choice as choice, hdl_records as records, hdl_signals as signals};
-pub use beside::{Beside, Without};
-pub use cost::Cost;
 pub(crate) use declare::Outline;
 pub use declare::{Declaration, Declarations, MemoryDeclaration, Path};
 pub use elaborate::elaborate;
+pub(crate) use elaborate::with_inputs;
 pub use memory::{Contents, Image, Ram, Shift, Written, ram, shift};
 pub(crate) use memory::{STAGE, WORD};
-pub(crate) use mistake::debug_as_display;
-pub use mistake::{Mistake, Wrong};
-pub use model::{Described, Model};
 pub use mutation::Mutation;
-pub use observe::{Each, Observer, RunError, StopWhen};
 pub(crate) use outline::declarations;
 pub use pack::inputs;
 pub use part::{Part, Settled, settle_each};
 pub use place::{At, MemoryAt, Number, Signals};
 pub use property::{After, Moment, Property};
-pub use record::{
-    BIT, Cells, MemoryShape, Nothing, Pass, Record, Sink, Site, Source, Walk, signed, unsigned,
-};
-pub(crate) use sample::View as LeafView;
-pub use sample::{Lazy, Registers, Sample, State, Values};
-pub use signal::{Field, Format, Kind, Role, Shape};
-pub use simulator::{Simulator, Watcher};
+pub use record::{Cells, MemoryShape, Nothing, Pass, Record, Sink, Source, Walk};
+pub use values::{Registers, Values};
 pub use view::{Edge, Kept, Place, Seen, Shapes, Value, View, Wire};
 pub use words::{Bit, Choice, Cut, I, Operand, U, Word, log2};
 
-/// Everything needed to write and test a circuit.
-pub mod prelude {
-    pub use super::{
-        Bit, Circuit, Cut, Edge, I, Image, Moment, Nothing, Part, Property, Ram, Seen, Settled,
-        Shift, Simulator, U, Value, View, Wire, Written, choice, log2, records, settle_each,
-        signals, zero,
-    };
-    pub use crate::check::{Fault, Invariants, Outcome, Specified, reach, require};
-}
-
-use crate::engine::EngineError;
-use beside::scope;
+use crate::netlist::{Role, Setting};
 use std::fmt::Debug;
-use std::sync::Arc;
 
 /// Clocked circuit; its fields are its widths, its variants, the contents of its memories.
 #[diagnostic::on_unimplemented(
@@ -138,7 +105,7 @@ pub trait Circuit: Clone + Debug + Send + Sync + 'static {
 
     // Written by `records!`; see `made`.
     #[doc(hidden)]
-    fn make_module(&self, path: String, more: More<'_>) -> (usize, Vec<netlist::Setting>);
+    fn make_module(&self, path: String, more: More<'_>) -> (usize, Vec<Setting>);
     #[doc(hidden)]
     fn make_shapes(&self, role: Role, source: &mut dyn Source);
     #[doc(hidden)]
@@ -158,32 +125,6 @@ pub trait Circuit: Clone + Debug + Send + Sync + 'static {
 /// Shows input ports that the circuit itself does not read.
 #[doc(hidden)]
 pub type More<'a> = &'a mut dyn FnMut(&mut dyn Source);
-
-/// Elaborates a circuit and erases its type.
-///
-/// # Errors
-/// Returns all mistakes of the circuit.
-pub fn model<C: Circuit>(circuit: &C) -> Result<Model, EngineError> {
-    let declared = circuit.clone();
-    Model::new(
-        (circuit.name(), circuit.about()),
-        elaborate(circuit)?,
-        Arc::new(move || declarations(&declared, &mut |_| {})),
-    )
-}
-
-/// Elaborates a circuit with signals beside it and erases its type.
-pub fn model_beside<C: Circuit, B: Beside>(circuit: &C, beside: &B) -> Result<Model, EngineError> {
-    let signals = |beside: &B, source: &mut dyn Source| {
-        B::Signals::<Shapes>::make(beside, const { &scope::<B>() }, source);
-    };
-    let declared = (circuit.clone(), beside.clone());
-    Model::new(
-        (circuit.name(), circuit.about()),
-        elaborate::with_inputs(circuit, &mut |source| signals(beside, source))?,
-        Arc::new(move || declarations(&declared.0, &mut |source| signals(&declared.1, source))),
-    )
-}
 
 /// Returns input ports with all bits low.
 pub fn zero<C: Circuit>(circuit: &C) -> C::In<Value> {

@@ -7,11 +7,11 @@
 mod change;
 mod find;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use super::build::Elaboration;
 use super::elaborate::Nets;
-use super::record::Site;
+use crate::netlist::Site;
 use std::cell::RefCell;
 use std::fmt;
 

@@ -3,9 +3,7 @@
 
 use super::build::{self, Builder, Elaboration, elaboration, mistake};
 use super::keywords::is_reserved;
-use super::netlist::{Id, Module, Node};
-use super::record::Site;
-use super::signal::Role;
+use crate::netlist::{Id, Module, Node, Role, Site};
 use std::collections::BTreeMap;
 
 /// Checks the names in the module under construction, a circuit named `circuit`.

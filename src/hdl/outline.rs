@@ -3,7 +3,8 @@
 use super::Circuit;
 use super::memory::Contents;
 use super::record::{Cells, MemoryShape, Pass, Source};
-use crate::hdl::{Declarations, Field, Outline, Role, Shape};
+use super::{Declarations, Outline};
+use crate::netlist::{Field, Role, Shape};
 
 /// Returns the signals of a circuit: input ports, registers, nets. Power-on values are left at 0.
 /// `beside` shows the input ports that stand beside the circuit.

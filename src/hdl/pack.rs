@@ -4,7 +4,7 @@ use super::memory::Contents;
 use super::record::{Cells, MemoryShape, Pass, Record, Source, Walk};
 use super::view::{self, Shapes, Value, View};
 use super::{Circuit, Registers};
-use crate::hdl::{Field, Role, Shape};
+use crate::netlist::{Field, Role, Shape};
 use std::sync::Arc;
 
 /// Widths of the leaves of a walk, including words of memories.
@@ -97,7 +97,7 @@ impl<F: FnMut(Shape) -> u64> Source for Given<F> {
         _: &dyn Fn() -> Contents,
     ) -> Cells {
         let word = Shape {
-            kind: crate::hdl::Kind::Unsigned,
+            kind: crate::netlist::Kind::Unsigned,
             width: shape.width,
         };
         let contents = (0..shape.words).map(|_| (self.0)(word) & u64::MAX >> (64 - word.width));

@@ -1,12 +1,12 @@
 //! Circuits inside a circuit.
 
+use super::Path;
 use super::build::{self, Declared, Instance, builder, elaboration, here, node};
 use super::leaves::Nodes;
 use super::record::{Pass, Record, Sink, Source, Walk};
 use super::view::{self, Seen, Shapes, Wire};
 use super::{Circuit, Written};
-use crate::hdl::netlist::{Child, Node, Register, Setting};
-use crate::hdl::{Field, Path, Role, Shape};
+use crate::netlist::{Child, Field, Node, Register, Role, Setting, Shape};
 use std::fmt;
 
 /// Circuit inside another, before it is settled; its registers are already readable.
@@ -102,7 +102,7 @@ fn instance(
     part: usize,
     (module, settings): (usize, Vec<Setting>),
     inputs: Vec<build::Id>,
-    site: super::Site,
+    site: crate::netlist::Site,
 ) -> Vec<build::Id> {
     let (leaves, own) = elaboration(|elaboration| {
         let module = &elaboration.modules[module];
@@ -152,7 +152,7 @@ pub fn settle_each<C: Circuit>(
 }
 
 /// Returns the nodes that drive the input ports, each as wide as its port.
-fn drive<C: Circuit>(circuit: &C, i: &C::In<Wire>, site: super::Site) -> Vec<build::Id> {
+fn drive<C: Circuit>(circuit: &C, i: &C::In<Wire>, site: crate::netlist::Site) -> Vec<build::Id> {
     let mut wanted = Counted::default();
     circuit.make_shapes(Role::Input, &mut wanted);
     let mut given = Counted::default();
@@ -164,7 +164,7 @@ fn drive<C: Circuit>(circuit: &C, i: &C::In<Wire>, site: super::Site) -> Vec<bui
 pub(super) fn pair(
     given: &Counted,
     wanted: &Counted,
-    site: super::Site,
+    site: crate::netlist::Site,
     what: &str,
 ) -> Vec<build::Id> {
     if given.leaves.len() != wanted.leaves.len() {
@@ -289,7 +289,7 @@ impl Sink for Counted {
         self.path.element(index);
     }
     fn word(&mut self, field: &'static Field, token: u64) {
-        self.push(field, super::BIT, token);
+        self.push(field, crate::netlist::BIT, token);
     }
     fn memory(&mut self, field: &'static Field, written: Written) {
         let name = self.name(field);

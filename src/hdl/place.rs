@@ -5,8 +5,7 @@ use super::memory::Contents;
 use super::pack;
 use super::record::{Cells, MemoryShape, Pass, Places, Source};
 use super::view::Place;
-use crate::engine::Engine;
-use crate::hdl::{Field, Role, Shape};
+use crate::netlist::{Field, Role, Shape};
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -39,9 +38,10 @@ impl<T> At<T> {
 }
 
 impl<T: Number> At<T> {
+    /// Converts the word of the leaf to a number.
     #[inline]
-    pub(crate) fn of(self, engine: &Engine) -> T {
-        T::of(engine.word(self.leaf as usize), self.spare)
+    pub(crate) fn number(self, word: u64) -> T {
+        T::of(word, self.spare)
     }
 }
 
@@ -159,7 +159,7 @@ impl<C: Circuit> fmt::Debug for Signals<C> {
 
 impl<C: Circuit> Signals<C> {
     /// Returns the places of a circuit with `beside` further input ports after its own.
-    pub(super) fn of(circuit: &C, beside: usize) -> Self {
+    pub(crate) fn of(circuit: &C, beside: usize) -> Self {
         let ports = pack::input_widths(circuit).len() + beside;
         let nets = ports + pack::register_widths(circuit).len();
         let mut leaves = Leaves(Places {

@@ -7,8 +7,7 @@ use super::leaves::Nodes;
 use super::record::{Pass, Record, Source};
 use super::view::{self, Seen, Wire};
 use super::words::Bit;
-use crate::hdl::netlist::{Assertion, Id, Node, Register};
-use crate::hdl::{Field, Role, Shape};
+use crate::netlist::{Assertion, Field, Id, Node, Register, Role, Shape};
 use std::fmt;
 
 /// Signals of a settled tick, and the registers after its edge.

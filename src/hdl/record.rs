@@ -2,11 +2,11 @@
 
 use super::memory::{Contents, Written};
 use super::view::View;
-use crate::hdl::{Field, Kind, Role, Shape};
+use crate::netlist::{Field, Role, Shape, Site};
 use std::sync::Arc;
 
 /// Struct of signals that belong to a `C`, as a [`View`] sees them; declared by
-/// [`signals!`](crate::hdl::signals).
+/// [`signals!`](super::signals).
 ///
 /// A walk goes through the leaves in declaration order and never branches on a value, so the
 /// position of a leaf in the walk identifies it. The `C` determines the widths.
@@ -32,17 +32,6 @@ pub trait Walk<V: View>: Sized + 'static {
     fn visit(&self, field: &'static Field, sink: &mut dyn Sink);
     /// Appends the tokens of its words, in the order of [`visit`](Self::visit).
     fn words(&self, words: &mut Vec<u64>);
-}
-
-/// Source location.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Site {
-    /// File.
-    pub file: &'static str,
-    /// Line, from 1.
-    pub line: u32,
-    /// Column, from 1.
-    pub column: u32,
 }
 
 /// Pass of a walk over parts: registers come before nets.
@@ -190,26 +179,4 @@ impl<V: View> Walk<V> for Nothing {
     };
     fn visit(&self, _: &'static Field, _: &mut dyn Sink) {}
     fn words(&self, _: &mut Vec<u64>) {}
-}
-
-/// One wire.
-pub const BIT: Shape = Shape {
-    kind: Kind::Bit,
-    width: 1,
-};
-
-/// Returns the shape of an unsigned word.
-pub const fn unsigned(width: usize) -> Shape {
-    Shape {
-        kind: Kind::Unsigned,
-        width,
-    }
-}
-
-/// Returns the shape of a two's complement word.
-pub const fn signed(width: usize) -> Shape {
-    Shape {
-        kind: Kind::Signed,
-        width,
-    }
 }

@@ -5,9 +5,9 @@ use super::memory::{Ram, Shift, Written};
 use super::part::{Part, Settled};
 use super::place::{At, MemoryAt, Signals};
 use super::record::{Cells, Pass, Record, Source};
-use super::sample::{Registers, Values};
+use super::values::{Registers, Values};
 use super::words::{Bit, I, U};
-use crate::hdl::{Field, Role};
+use crate::netlist::{Field, Role};
 use std::fmt::Debug;
 use std::sync::Arc;
 

@@ -1,9 +1,7 @@
 //! Words while a circuit is elaborated: handles to nodes of its netlist.
 
 use super::build::{self, Id, bits, builder, constant, here, mistake, node, resize};
-use super::record::{BIT, signed, unsigned};
-use crate::hdl::Shape;
-use crate::hdl::netlist::{Node, Operator};
+use crate::netlist::{BIT, Node, Operator, Shape, signed, unsigned};
 use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
 
 /// One wire.
@@ -12,7 +10,7 @@ use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
 /// do not compile; [`equals`](U::equals), [`below`](U::below) and [`mux`](Bit::mux) are the gates.
 ///
 /// ```
-/// # use motion_rtl::hdl::prelude::*;
+/// # use motion_rtl::prelude::*;
 /// # #[derive(Debug, Clone)] struct C;
 /// # signals! { for C as _c; pub struct In { limit: U(6), go: Bit } pub struct Reg { pub count: U(6) } }
 /// # impl Circuit for C {
@@ -26,7 +24,7 @@ use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
 /// ```
 ///
 /// ```compile_fail,E0369
-/// # use motion_rtl::hdl::prelude::*;
+/// # use motion_rtl::prelude::*;
 /// # #[derive(Debug, Clone)] struct C;
 /// # signals! { for C as _c; pub struct In { limit: U(6), go: Bit } pub struct Reg { pub count: U(6) } }
 /// # impl Circuit for C {
@@ -39,7 +37,7 @@ use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
 /// ```
 ///
 /// ```compile_fail,E0369
-/// # use motion_rtl::hdl::prelude::*;
+/// # use motion_rtl::prelude::*;
 /// # #[derive(Debug, Clone)] struct C;
 /// # signals! { for C as _c; pub struct In { limit: U(6), go: Bit } pub struct Reg { pub count: U(6) } }
 /// # impl Circuit for C {
@@ -52,7 +50,7 @@ use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
 /// ```
 ///
 /// ```compile_fail,E0308
-/// # use motion_rtl::hdl::prelude::*;
+/// # use motion_rtl::prelude::*;
 /// # #[derive(Debug, Clone)] struct C;
 /// # signals! { for C as _c; pub struct In { limit: U(6), go: Bit } pub struct Reg { pub count: U(6) } }
 /// # impl Circuit for C {
@@ -67,7 +65,7 @@ use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
 /// Two constants have no width:
 ///
 /// ```compile_fail,E0277
-/// # use motion_rtl::hdl::prelude::*;
+/// # use motion_rtl::prelude::*;
 /// # #[derive(Debug, Clone)] struct C;
 /// # signals! { for C as _c; pub struct In { limit: U(6), go: Bit } pub struct Reg { pub count: U(6) } }
 /// # impl Circuit for C {

@@ -4,9 +4,13 @@
 //! computer that feeds it, a run with its surroundings, and the measures of the run.
 
 pub mod arc_generator;
+mod error;
 pub mod lead_angle;
 pub mod linear_interpolator;
 pub mod machine;
 pub mod pulse_interpolator;
+mod record_writer;
 pub mod taught;
 pub mod trajectory_controller;
+
+pub use error::JobError;

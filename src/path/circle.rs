@@ -248,3 +248,15 @@ impl Circle {
         [vector, cross(self.axis, vector)]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rise_is_shown_without_rounding_errors() {
+        let rise = 99.999_999_999_999_99;
+        let error = CircleError::Helix { rise };
+        assert_eq!(error.to_string(), "climbs 100 mm along its axis: a helix");
+    }
+}

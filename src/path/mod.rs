@@ -1,6 +1,5 @@
 //! Paths in space for arc generator and trajectory controller: their pieces, the geometry of arcs
-//! and splines, the joints of an arm whose hand follows them, and records as a control computer
-//! writes them.
+//! and splines, the joints of an arm whose hand follows them, and the format of their records.
 
 pub mod arm;
 pub mod circle;
@@ -9,5 +8,4 @@ pub mod error;
 pub mod helix;
 pub mod pieces;
 pub mod record;
-pub(crate) mod record_writer;
 pub mod vector;

@@ -1,10 +1,9 @@
 //! Look-ahead: speed at every junction, and speed profile of every move.
 
-use super::geometry::{self, Curve};
+use super::geometry::{self, Curve, norm};
 use super::sampler::Sampler;
 use super::{MotionLimits, PlanError};
 use crate::input::{Drawing, Move, Point};
-use crate::path::vector::distance;
 
 /// Greatest difference of directions, in radians, that counts as tangential: a tangent computed
 /// from rounded coordinates must not stop a machine whose corner speed is 0.
@@ -205,9 +204,8 @@ fn limit_speeds(drawing: &Drawing, limits: &MotionLimits) -> (Vec<Packed>, Vec<f
         let peak = nominal_speed(&step, limits).min(curve.fastest(limits.acceleration_mm_per_s2));
         let [first, last] = curve.directions();
         let entry = before.map_or(0.0, |(peak_before, direction)| {
-            junction(distance(direction, first), corner)
-                .min(peak)
-                .min(peak_before)
+            let turn = norm(std::array::from_fn(|k| direction[k] - first[k]));
+            junction(turn, corner).min(peak).min(peak_before)
         });
         before = Some((peak, last));
         segments.push(Packed {

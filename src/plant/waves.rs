@@ -1,7 +1,8 @@
 //! Signals of a plant in the waves of the circuit that drives it.
 
 use super::{BrakedBody, ServoAxis, TwoMassAxis};
-use crate::hdl::{Beside, Value, View, signals};
+use crate::hdl::{Value, View, signals};
+use crate::sim::Beside;
 use fixed::types::I56F8;
 
 signals! { for Axes as _c;

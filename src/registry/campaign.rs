@@ -3,8 +3,11 @@
 use super::{AnyModel, Base, Entry, Pair, ProofSearch, Refused, Verdict, find};
 use crate::check::Stimulus;
 use crate::engine::{EngineError, Watch};
-use crate::hdl::mutation::{mutated, mutations};
-use crate::hdl::{Model, Mutation};
+use crate::hdl::{
+    Mutation,
+    mutation::{mutated, mutations},
+};
+use crate::sim::Elaborated;
 use crate::trace::chart::{Chart, ChartFailure};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -116,7 +119,7 @@ pub enum CampaignError {
     },
 }
 
-crate::hdl::debug_as_display!(CampaignError);
+crate::netlist::debug_as_display!(CampaignError);
 
 /// A circuit as it was made, and the charts of it.
 struct Made<'c> {
@@ -124,13 +127,13 @@ struct Made<'c> {
     base: Base,
     pairs: Vec<Pair>,
     circuit: Box<dyn AnyModel>,
-    model: Model,
+    model: Elaborated,
     charts: Vec<&'c Chart>,
 }
 
 impl Made<'_> {
     /// Returns the netlist with a fault; `None` if the fault has no place in it.
-    fn mutated(&self, mutation: &Mutation) -> Option<Result<Model, EngineError>> {
+    fn mutated(&self, mutation: &Mutation) -> Option<Result<Elaborated, EngineError>> {
         mutated(mutation, || self.circuit.model())
     }
 
@@ -149,7 +152,7 @@ impl Made<'_> {
     }
 
     /// Returns the chart that finds a fault.
-    fn chart(&self, model: &Model) -> Option<&Chart> {
+    fn chart(&self, model: &Elaborated) -> Option<&Chart> {
         let mut charts = self.charts.iter().copied();
         charts.find(|chart| matches!(chart.run_on(model), Err(ChartFailure::Mismatch(_))))
     }
@@ -259,7 +262,7 @@ impl Campaign {
         Ok((own, around))
     }
 
-    fn shown(&self, model: &Model) -> Shown {
+    fn shown(&self, model: &Elaborated) -> Shown {
         let runs = (0..self.runs).map(|run| {
             let mut rows = Vec::new();
             self.play(model, run, &mut |_, _, value| {
@@ -275,7 +278,7 @@ impl Campaign {
 
     /// Runs a circuit on random inputs and passes its output ports to `see`, tick by tick, until
     /// `see` returns false.
-    fn play(&self, model: &Model, run: u64, see: &mut dyn FnMut(u64, usize, u64) -> bool) {
+    fn play(&self, model: &Elaborated, run: u64, see: &mut dyn FnMut(u64, usize, u64) -> bool) {
         let ports = model.ports_out();
         let mut engine = model.engine(Watch::All);
         let mut random = Stimulus::new(run);
@@ -292,7 +295,7 @@ impl Campaign {
     }
 
     /// Returns where a fault first shows: run, tick and output port.
-    fn shows(&self, shown: &Shown, model: &Model) -> Option<(u64, u64, String)> {
+    fn shows(&self, shown: &Shown, model: &Elaborated) -> Option<(u64, u64, String)> {
         for (run, rows) in shown.runs.iter().enumerate() {
             let mut rows = rows.iter();
             let mut seen = None;

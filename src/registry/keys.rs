@@ -2,8 +2,8 @@
 
 use super::entry::{Base, Entry, Made};
 use crate::engine::EngineError;
-use crate::hdl::Wrong;
 use crate::nearest::nearest;
+use crate::netlist::Wrong;
 use crate::settings::{Pair, value};
 use toml::de::DeTable;
 use toml::{Table, Value};

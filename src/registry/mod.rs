@@ -22,6 +22,8 @@ mod circuits;
 mod entry;
 mod keys;
 mod model;
+#[cfg(test)]
+mod ports_out;
 mod sweep;
 
 pub use crate::settings::{Pair, PairError};

@@ -2,7 +2,8 @@
 
 use crate::check::{CheckError, Drive, Driven, Outcome, Progress, Proof, Specified, reach};
 use crate::engine::EngineError;
-use crate::hdl::{self, Circuit, Declarations, Model, RunError};
+use crate::hdl::{Circuit, Declarations};
+use crate::sim::{Elaborated, RunError};
 use crate::trace::chart::{Chart, ChartFailure};
 use crate::trace::{Clock, Layout, LayoutError};
 use crate::verilog::{Connections, Verilog};
@@ -19,7 +20,7 @@ pub trait AnyModel: Send + Sync {
     ///
     /// # Errors
     /// All errors of the circuit.
-    fn model(&self) -> Result<Model, EngineError>;
+    fn model(&self) -> Result<Elaborated, EngineError>;
     /// Returns its signals in the order of its waves.
     fn outline(&self) -> Declarations;
 }
@@ -33,8 +34,8 @@ impl<C: Circuit> AnyModel for C {
         Circuit::about(self)
     }
 
-    fn model(&self) -> Result<Model, EngineError> {
-        hdl::model(self)
+    fn model(&self) -> Result<Elaborated, EngineError> {
+        Elaborated::new(self)
     }
 
     fn outline(&self) -> Declarations {
@@ -124,7 +125,7 @@ pub struct ProofSearch<'a> {
     /// Directory for a counterexample as VCD and save file.
     pub waves: Option<&'a Path>,
     /// A netlist of the circuit to take in place of its own.
-    pub model: Option<Model>,
+    pub model: Option<Elaborated>,
 }
 
 impl Default for ProofSearch<'_> {

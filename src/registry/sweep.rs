@@ -2,7 +2,7 @@
 
 use super::{AnyModel, Verdict};
 use crate::check::{CheckError, Law, Swept, cases, sweep};
-use crate::hdl::Model;
+use crate::sim::Elaborated;
 use crate::trace::Clock;
 use std::ops::Range;
 use std::path::Path;
@@ -24,7 +24,7 @@ pub trait AnySweep: AnyModel {
     fn sweep(
         &self,
         range: Range<u64>,
-        model: Option<Model>,
+        model: Option<Elaborated>,
         waves: Option<&Path>,
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<Verdict<u64>, CheckError>;
@@ -42,7 +42,7 @@ impl<W: Law> AnySweep for W {
     fn sweep(
         &self,
         range: Range<u64>,
-        model: Option<Model>,
+        model: Option<Elaborated>,
         waves: Option<&Path>,
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<Verdict<u64>, CheckError> {

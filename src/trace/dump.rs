@@ -3,7 +3,7 @@
 use super::layout::Layout;
 use super::walk::{Change, Walk};
 use super::{Clock, Options};
-use crate::hdl::{LeafView as View, RunError};
+use crate::sim::{LeafView as View, RunError};
 use std::io;
 use std::ops::{ControlFlow, Range};
 
@@ -67,15 +67,15 @@ impl<F: Format> Dump<F> {
 /// Makes the writer of a dump observe every tick.
 macro_rules! observes {
     ([$($bounds:tt)*] $name:ty) => {
-        impl<Watched: $crate::hdl::Circuit, $($bounds)*> $crate::hdl::Observer<Watched> for $name {
+        impl<Watched: $crate::hdl::Circuit, $($bounds)*> $crate::sim::Observer<Watched> for $name {
             fn next_look(&self, tick: u64) -> u64 {
                 self.dump.next_look(tick)
             }
 
             fn sample(
                 &mut self,
-                now: &$crate::hdl::Sample<'_, Watched>,
-            ) -> Result<std::ops::ControlFlow<()>, $crate::hdl::RunError> {
+                now: &$crate::sim::Sample<'_, Watched>,
+            ) -> Result<std::ops::ControlFlow<()>, $crate::sim::RunError> {
                 self.dump.sample(now.tick, now.view())
             }
         }

@@ -11,7 +11,7 @@ use super::behind::Behind;
 use super::dump::{Dump, observes};
 use super::layout::Layout;
 use super::{Clock, Options};
-use crate::hdl::Described;
+use crate::sim::Described;
 use std::io::{self, Seek, Write};
 
 pub(super) use encoder::Encoder;

@@ -2,7 +2,9 @@
 
 use super::layout::{CLK, Layout, Scope, companion, is_stage, is_word};
 use super::{Clock, LayoutError, Options};
-use crate::hdl::{Declaration, Described, Format, Kind, Role};
+use crate::hdl::Declaration;
+use crate::netlist::{Format, Kind, Role};
+use crate::sim::Described;
 use std::fmt::Write;
 use std::ops::Range;
 

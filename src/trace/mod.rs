@@ -36,7 +36,7 @@ pub use wave_file::{WaveFile, WaveFormat};
 
 use crate::engine::Watch;
 use crate::files::{AtomicFile, Directory, commit_all};
-use crate::hdl::{Described, LeafView as View, Model, RunError};
+use crate::sim::{Described, Elaborated, LeafView as View, RunError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -73,7 +73,7 @@ pub fn replay(
 
 /// Replays an elaborated circuit as [`replay`] does.
 pub(crate) fn play(
-    model: &Model,
+    model: &Elaborated,
     inputs: &mut dyn Iterator<Item = Vec<u64>>,
     clock: Clock,
     dir: &Path,

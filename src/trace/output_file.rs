@@ -1,7 +1,7 @@
 use super::Lines;
 use crate::engine::EngineError;
-use crate::hdl;
-use crate::hdl::{Described, LeafView as View, Model, RunError};
+use crate::hdl::Circuit;
+use crate::sim::{Described, Elaborated, LeafView as View, Observer, RunError, Sample};
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 
@@ -30,7 +30,7 @@ impl<W: Write> OutputFile<W> {
     }
 
     /// Begins the file of an elaborated circuit.
-    pub(crate) fn of(out: W, model: &Model) -> Self {
+    pub(crate) fn of(out: W, model: &Elaborated) -> Self {
         let leaves = model.ports_out();
         let all = &model.declarations().leaves;
         let widths = leaves.iter().map(|&leaf| all[leaf].shape.width);
@@ -54,8 +54,8 @@ impl<W: Write> OutputFile<W> {
     }
 }
 
-impl<C: hdl::Circuit, W: Write> hdl::Observer<C> for OutputFile<W> {
-    fn sample(&mut self, now: &hdl::Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+impl<C: Circuit, W: Write> Observer<C> for OutputFile<W> {
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.tick(now.view())?;
         Ok(ControlFlow::Continue(()))
     }

@@ -1,7 +1,7 @@
 use super::layout::select;
 use super::{LayoutError, Options};
-use crate::hdl;
-use crate::hdl::{Declaration, Described, LeafView as View, RunError};
+use crate::hdl::{Circuit, Declaration};
+use crate::sim::{Described, LeafView as View, Observer, RunError, Sample};
 use std::collections::HashMap;
 use std::io;
 use std::ops::{ControlFlow, Range};
@@ -91,8 +91,8 @@ impl Recorder {
     }
 }
 
-impl<C: hdl::Circuit> hdl::Observer<C> for Recorder {
-    fn sample(&mut self, now: &hdl::Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+impl<C: Circuit> Observer<C> for Recorder {
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.record.tick(now.tick, now.view())?;
         Ok(ControlFlow::Continue(()))
     }

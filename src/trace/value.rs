@@ -1,4 +1,4 @@
-use crate::hdl::{Format, Kind, Shape};
+use crate::netlist::{Format, Kind, Shape};
 
 /// Returns the number that the bits of a word mean.
 pub fn number(shape: Shape, bits: u64) -> i128 {

@@ -7,7 +7,7 @@ use super::behind::Behind;
 use super::dump::{Dump, observes};
 use super::layout::Layout;
 use super::{Clock, LayoutError, Options};
-use crate::hdl::Described;
+use crate::sim::Described;
 use std::io::{self, Write};
 
 pub(crate) use file::VcdFile;

@@ -2,7 +2,7 @@
 
 use super::Clock;
 use super::layout::Layout;
-use crate::hdl::LeafView as View;
+use crate::sim::LeafView as View;
 use std::io;
 
 /// Value before the first tick: all but words of 64 bits differ from it.

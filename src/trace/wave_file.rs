@@ -6,7 +6,7 @@ use super::vcd::VcdFile;
 use super::walk::Change;
 use super::{Clock, Options};
 use crate::files::AtomicFile;
-use crate::hdl::Described;
+use crate::sim::Described;
 use std::io;
 
 /// Waveform format.

@@ -3,8 +3,8 @@
 use super::design::Modules;
 use super::expression::Expressions;
 use super::names::Names;
-use crate::hdl::netlist::{Child, Design, Module, Signal};
-use crate::hdl::{Declarations, Role, Shape};
+use crate::hdl::Declarations;
+use crate::netlist::{Child, Design, Module, Role, Shape, Signal};
 use std::collections::HashMap;
 
 /// The circuits that a circuit is made of, and what connects them.

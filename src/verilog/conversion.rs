@@ -1,8 +1,7 @@
 //! Parts, extensions and signs of words, and constants.
 
 use super::expression::{Expressions, Rank, Text};
-use crate::hdl::netlist::{Id, Node};
-use crate::hdl::{Kind, Shape};
+use crate::netlist::{Id, Kind, Node, Shape};
 
 impl Expressions<'_> {
     /// The bits of a word from `low` up.

@@ -1,7 +1,6 @@
 use super::conversion::literal;
 use super::text::range;
-use crate::hdl::netlist::{Memory, Module, Port, Setting, Value};
-use crate::hdl::{Kind, Role, Shape};
+use crate::netlist::{Kind, Memory, Module, Port, Role, Setting, Shape, Value};
 
 /// The modules of a design, the circuit itself last, and what they are set to.
 pub(super) struct Modules<'d> {

@@ -1,7 +1,6 @@
 use super::conversion::{constant, wrap};
 use super::names::{Names, index_width};
-use crate::hdl::netlist::{Id, Module, Node, Operator, Port};
-use crate::hdl::{Kind, Shape};
+use crate::netlist::{Id, Kind, Module, Node, Operator, Port, Shape};
 use std::cell::RefCell;
 use std::collections::HashMap;
 

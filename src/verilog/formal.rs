@@ -4,7 +4,7 @@ use super::design::Modules;
 use super::expression::Expressions;
 use super::names::Names;
 use super::text::{ascii, range};
-use crate::hdl::netlist::{Module, Node};
+use crate::netlist::{Module, Node};
 use std::fmt::Write as _;
 
 /// Low in the first tick, whose past is not known.

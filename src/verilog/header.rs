@@ -1,7 +1,6 @@
 use super::design::Modules;
 use super::text::{annotated, column, comment, range};
-use crate::hdl::Role;
-use crate::hdl::netlist::{Module, Signal};
+use crate::netlist::{Module, Role, Signal};
 use std::fmt::Write as _;
 
 /// Unit of time of modules, in which nothing happens: with it in all of them no simulator asks which

@@ -3,8 +3,7 @@ use super::design::{Modules, unsigned};
 use super::expression::Expressions;
 use super::names::Names;
 use super::text::Body;
-use crate::hdl::netlist::{Module, Node};
-use crate::hdl::{Role, Shape};
+use crate::netlist::{Module, Node, Role, Shape};
 
 /// Connections of instances' output ports.
 pub(super) struct Outputs {

@@ -3,7 +3,7 @@ use super::design::unsigned;
 use super::expression::Expressions;
 use super::statements::guarded;
 use super::text::{Body, clean, range};
-use crate::hdl::netlist::{Memory, Module, Node, Port};
+use crate::netlist::{Memory, Module, Node, Port};
 
 /// Declarations and contents of memories.
 pub(super) fn memories(module: &Module, body: &mut Body) {

@@ -30,8 +30,8 @@ mod text;
 mod unused;
 
 use crate::engine::EngineError;
-use crate::hdl::Described;
-use crate::hdl::netlist::{Design, Value};
+use crate::netlist::{Design, Value};
+use crate::sim::Described;
 use crate::trace::Clock;
 pub use connections::{Connection, Connections, Part};
 use design::Modules;

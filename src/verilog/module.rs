@@ -6,8 +6,7 @@ use super::names::Names;
 use super::statements::edge;
 use super::text::{Body, annotated, ascii, column, comment, range};
 use super::unused::unused;
-use crate::hdl::Role;
-use crate::hdl::netlist::{Module, Node, Signal};
+use crate::netlist::{Module, Node, Role, Signal};
 use std::fmt::Write as _;
 
 /// The room for a definition before it is broken into lines.

@@ -1,5 +1,4 @@
-use crate::hdl::netlist::{Id, Module, Node, Operator, Port};
-use crate::hdl::{Kind, Role};
+use crate::netlist::{Id, Kind, Module, Node, Operator, Port, Role};
 use std::collections::{HashMap, HashSet};
 
 /// Names longer than this say less than a number.

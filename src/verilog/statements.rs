@@ -1,7 +1,7 @@
 use super::conversion::literal;
 use super::expression::Expressions;
 use super::module::{is_own_register, stored};
-use crate::hdl::netlist::{Id, Module, Node};
+use crate::netlist::{Id, Module, Node};
 
 /// A statement at a rising edge.
 #[derive(Debug, PartialEq)]

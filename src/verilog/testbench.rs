@@ -1,6 +1,6 @@
 use super::SourceFile;
 use super::design::Modules;
-use crate::hdl::netlist::{Module, Signal};
+use crate::netlist::{Module, Signal};
 use crate::trace::Clock;
 use std::fmt::Write as _;
 

@@ -1,5 +1,4 @@
-use crate::hdl::netlist::Signal;
-use crate::hdl::{Format, Kind, Shape};
+use crate::netlist::{Format, Kind, Shape, Signal};
 use std::fmt::Write as _;
 
 /// The length of a line, and the room that a comment has at least.

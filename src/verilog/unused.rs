@@ -2,8 +2,7 @@ use super::expression::Expressions;
 use super::instances::Outputs;
 use super::module::is_own_register;
 use super::text::{Body, LINE};
-use crate::hdl::Role;
-use crate::hdl::netlist::Module;
+use crate::netlist::{Module, Role};
 
 /// Name of the wire that reads otherwise unused bits.
 pub(super) const UNUSED: &str = "_unused";

@@ -3,8 +3,8 @@
 use super::scaled;
 use motion_rtl::check::Stimulus;
 use motion_rtl::engine::{Engine, Watch};
-use motion_rtl::hdl::Model;
 use motion_rtl::registry::CATALOGUE;
+use motion_rtl::sim::Elaborated;
 
 /// Ticks before a compiled engine knows which blocks run often.
 const COUNTED: u64 = 200;
@@ -20,7 +20,7 @@ struct Held<'m> {
 }
 
 /// Runs all of them on the same inputs.
-fn same(name: &str, model: &Model) {
+fn same(name: &str, model: &Elaborated) {
     let declared = model.declarations();
     let is_word = |leaf: usize| {
         let mut memories = declared.memories.iter();

@@ -1,6 +1,6 @@
 //! Small circuits.
 
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 
 /// Writes the head of a circuit whose records are these.
 macro_rules! head {

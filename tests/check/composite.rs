@@ -2,8 +2,10 @@
 
 use crate::circuits::*;
 use motion_rtl::check::{Lockstep, LockstepError, Pair};
-use motion_rtl::hdl::prelude::*;
-use motion_rtl::hdl::{Declarations, Role, Sample};
+use motion_rtl::hdl::Declarations;
+use motion_rtl::netlist::Role;
+use motion_rtl::prelude::*;
+use motion_rtl::sim::Sample;
 
 /// Three counters, each of them enabled by the carries below.
 #[derive(Debug, Clone)]

@@ -2,7 +2,8 @@
 
 use crate::circuits::*;
 use motion_rtl::check::{Invariants, Lockstep, LockstepError, Pair, Random, reach};
-use motion_rtl::hdl::{Circuit, Declarations, RunError, Simulator, zero};
+use motion_rtl::hdl::{Circuit, Declarations, zero};
+use motion_rtl::sim::{RunError, Simulator};
 
 fn counters(flaw: u64) -> Pair<Up, Down> {
     Pair {

@@ -4,6 +4,8 @@
 mod backends;
 mod circuits;
 mod composite;
+mod floors;
+mod language;
 mod lockstep;
 mod monitor;
 mod proofs;

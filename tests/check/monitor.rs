@@ -2,7 +2,8 @@
 
 use crate::circuits::*;
 use motion_rtl::check::{Invariants, Monitor, Random, require};
-use motion_rtl::hdl::{RunError, Sample, Simulator, State, Value};
+use motion_rtl::hdl::Value;
+use motion_rtl::sim::{RunError, Sample, Simulator, State};
 
 fn on(_: u64, _: &State<'_, Up>) -> Enable<Value> {
     Enable { enable: true }

@@ -2,8 +2,8 @@
 
 use crate::circuits::*;
 use motion_rtl::check::{Proof, Random};
-use motion_rtl::hdl::prelude::*;
-use motion_rtl::hdl::{Sample, State};
+use motion_rtl::prelude::*;
+use motion_rtl::sim::{Sample, State};
 use std::collections::{BTreeSet, HashSet};
 
 pub fn proof(states: u64, transitions: u64, depth: u64) -> Proof {

@@ -3,7 +3,7 @@
 use crate::circuits::*;
 use expect_test::expect;
 use motion_rtl::check::{Invariants, reach, require};
-use motion_rtl::hdl::Sample;
+use motion_rtl::sim::Sample;
 use motion_rtl::trace::Clock;
 
 #[test]

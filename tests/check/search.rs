@@ -5,7 +5,7 @@ use crate::reach::proof;
 use motion_rtl::check::{
     CheckError, Invariants, Outcome, Progress, Proof, TooWide, all, reach, require,
 };
-use motion_rtl::hdl::Sample;
+use motion_rtl::sim::Sample;
 use std::collections::HashSet;
 
 #[test]

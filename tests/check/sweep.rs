@@ -5,7 +5,7 @@ mod line;
 mod words;
 
 use motion_rtl::check::{Law, cases, sweep};
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 use motion_rtl::trace::Clock;
 use rayon::ThreadPoolBuilder;
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -1,7 +1,8 @@
 //! Helpers of the pulse interpolator's tests.
 
 use motion_rtl::circuits::pulse_interpolator::{Group, Pattern, Variant, Widths};
-use motion_rtl::hdl::{Each, Sample, Simulator, zero};
+use motion_rtl::hdl::zero;
+use motion_rtl::sim::{Each, Sample, Simulator};
 
 /// Widths of half-period, unit time and address.
 pub fn widths(half_period: usize, period: usize, address: usize) -> Widths {

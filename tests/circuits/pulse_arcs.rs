@@ -5,7 +5,8 @@ use motion_rtl::circuits::blocks::cordic_state::GAIN;
 use motion_rtl::circuits::pulse_interpolator::circular_interpolator::{ArcMove, GUARD};
 use motion_rtl::circuits::pulse_interpolator::conventional::{Conventional, In};
 use motion_rtl::circuits::pulse_interpolator::motor_controller::ConventionalWidths;
-use motion_rtl::hdl::{Simulator, Value, zero};
+use motion_rtl::hdl::{Value, zero};
+use motion_rtl::sim::Simulator;
 use std::f64::consts::TAU;
 
 /// Angles have so many bits.

@@ -97,7 +97,7 @@ fn known_counts_at_a_unit_time_of_1000_ticks() {
 #[test]
 fn the_literal_generator_takes_no_notice_of_rst() {
     use motion_rtl::circuits::pulse_interpolator::{PulseGenerator, pulse_generator::In};
-    use motion_rtl::hdl::Simulator;
+    use motion_rtl::sim::Simulator;
     for half_period in 1..16u64 {
         for rst_every in [1, 2, 3, 7, 100] {
             let generator = PulseGenerator {

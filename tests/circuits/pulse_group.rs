@@ -4,7 +4,9 @@ use super::common::{player, rises, steps, unit_wave, widths};
 use motion_rtl::circuits::pulse_interpolator::Variant::Safe;
 use motion_rtl::circuits::pulse_interpolator::group::{Group, In};
 use motion_rtl::circuits::pulse_interpolator::{Pattern, Widths, pattern_memory::WritePort};
-use motion_rtl::hdl::{Declarations, Each, Role, Sample, Simulator, Value, zero};
+use motion_rtl::hdl::{Declarations, Value, zero};
+use motion_rtl::netlist::Role;
+use motion_rtl::sim::{Each, Sample, Simulator};
 
 type Port = In<Value>;
 

@@ -4,7 +4,8 @@ use super::common::widths;
 use motion_rtl::circuits::pulse_interpolator::Variant::Safe;
 use motion_rtl::circuits::pulse_interpolator::group::{Group, In};
 use motion_rtl::circuits::pulse_interpolator::pattern_memory::WritePort;
-use motion_rtl::hdl::{Each, Sample, Simulator, State, Value, zero};
+use motion_rtl::hdl::{Value, zero};
+use motion_rtl::sim::{Each, Sample, Simulator, State};
 use proptest::prelude::*;
 
 const WORDS: u64 = 4;

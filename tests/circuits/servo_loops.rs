@@ -3,8 +3,8 @@
 
 use motion_rtl::circuits::linear_interpolator::PositionLoop;
 use motion_rtl::circuits::linear_interpolator::position_loop::In;
-use motion_rtl::hdl::Simulator;
 use motion_rtl::plant::{ServoAxis, ServoParameters};
+use motion_rtl::sim::Simulator;
 use proptest::prelude::*;
 
 /// 200 kHz.

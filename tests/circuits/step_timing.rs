@@ -2,9 +2,10 @@
 
 use super::common::{player, widths};
 use motion_rtl::circuits::pulse_interpolator::Variant;
-use motion_rtl::hdl::{RunError, Simulator, zero};
+use motion_rtl::hdl::zero;
 use motion_rtl::jobs::pulse_interpolator::StepTiming;
 use motion_rtl::jobs::pulse_interpolator::step_dir::{Driver, Drivers, TimingMinima, TooShort};
+use motion_rtl::sim::{RunError, Simulator};
 
 /// Runs a driver over lines drawn as `_` and `#`; the first complaint with its tick.
 fn watch(limits: StepTiming, step: &str, dir: &str) -> (Driver, Option<(u64, TooShort)>) {

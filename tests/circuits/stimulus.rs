@@ -10,8 +10,10 @@ use motion_rtl::circuits::linear_interpolator::LinearInterpolator;
 use motion_rtl::circuits::pulse_interpolator::{
     Axis, Group, PatternMemory, UnitLaw, Variant, Widths,
 };
-use motion_rtl::hdl::{Circuit, Observer, Shape, Simulator, Value, inputs};
+use motion_rtl::hdl::{Circuit, Value, inputs};
+use motion_rtl::netlist::Shape;
 use motion_rtl::registry::{AnyModel, Base, CATALOGUE};
+use motion_rtl::sim::{Observer, Simulator};
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
 use rayon::prelude::*;
 use std::collections::HashSet;

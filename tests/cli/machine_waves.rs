@@ -2,10 +2,10 @@
 
 use super::support::{Bench, without_sizes};
 use motion_rtl::circuits::machine::Machine;
-use motion_rtl::hdl::netlist::{Design, Port};
-use motion_rtl::hdl::{Role, model};
 use motion_rtl::jobs::machine::job::machine;
+use motion_rtl::netlist::{Design, Port, Role};
 use motion_rtl::scenario::{Loaded, Scenario};
+use motion_rtl::sim::Elaborated;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::BufReader;
@@ -119,7 +119,7 @@ fn machine_of(text: &str) -> Machine {
 
 /// Compares the dump of a run with the design of a scenario's machine, and returns the entries.
 fn whole(bench: &Bench, dump: &str, scenario: &str) -> Entries {
-    let model = model(&machine_of(scenario)).unwrap();
+    let model = Elaborated::new(&machine_of(scenario)).unwrap();
     let design = model.design();
     let mut due = Entries::new();
     designed(design, design.modules.len() - 1, "", &mut due);

@@ -3,12 +3,13 @@
 
 use super::tools::{Simulator, complete, write};
 use motion_rtl::circuits::linear_interpolator::{Controller, MasterAxis, Rule};
-use motion_rtl::hdl::{Circuit, Declarations, Without};
+use motion_rtl::hdl::{Circuit, Declarations};
 use motion_rtl::input::read_text;
 use motion_rtl::jobs::linear_interpolator::job::{conventional, play, plotter};
 use motion_rtl::jobs::linear_interpolator::settings::Settings;
 use motion_rtl::jobs::linear_interpolator::targets::{LATENCY_TICKS, Target, compile};
 use motion_rtl::jobs::linear_interpolator::ways::Way;
+use motion_rtl::sim::Without;
 use motion_rtl::trace::{Clock, Options, OutputFile, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;
 use std::fs::File;

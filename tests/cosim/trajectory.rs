@@ -3,13 +3,14 @@
 
 use super::tools::{Simulator, complete, write};
 use motion_rtl::circuits::trajectory_controller::{Rounding, TrajectoryController, Widths};
-use motion_rtl::hdl::{Declarations, Without};
+use motion_rtl::hdl::Declarations;
 use motion_rtl::input::Point;
 use motion_rtl::jobs::trajectory_controller::job::{Program, play};
 use motion_rtl::jobs::trajectory_controller::segments::FourthAxis;
 use motion_rtl::jobs::trajectory_controller::settings::{Correction, LEAST_PERIOD_TICKS, Settings};
 use motion_rtl::path::pieces::{Speeds, Taught, from_points};
 use motion_rtl::plant::{TwoMassAxis, TwoMassParameters};
+use motion_rtl::sim::Without;
 use motion_rtl::trace::{Clock, Options, OutputFile, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;
 use std::fs::File;

@@ -2,11 +2,12 @@
 //! their Verilog.
 
 use super::tools::{Simulator, complete, write};
-use motion_rtl::hdl::{Circuit, Declarations, Without};
+use motion_rtl::hdl::{Circuit, Declarations};
 use motion_rtl::jobs::lead_angle::job::{Played, play, positioner};
 use motion_rtl::jobs::lead_angle::settings::{
     Comparing, Detector, History, LeadBy, LeadForm, Placement, Settings, Step,
 };
+use motion_rtl::sim::Without;
 use motion_rtl::trace::{Clock, Options, OutputFile, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;
 use std::fs::File;

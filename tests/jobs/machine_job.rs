@@ -2,11 +2,12 @@
 
 use motion_rtl::circuits::machine::Machine;
 use motion_rtl::circuits::pulse_interpolator::{Group, Variant};
-use motion_rtl::hdl::{At, Observer, RunError, Sample, Signals};
+use motion_rtl::hdl::{At, Signals};
 use motion_rtl::input::gcode;
 use motion_rtl::jobs::machine::job::{Played, machine, play};
 use motion_rtl::jobs::machine::{Program, Settings};
 use motion_rtl::jobs::pulse_interpolator::job;
+use motion_rtl::sim::{Observer, RunError, Sample};
 use std::ops::ControlFlow;
 
 /// A line, an arc, rapid moves, pen down and up twice.

@@ -10,7 +10,7 @@
 //!
 //! The differences of rounded angles add up to the angle itself, so their rounding does not.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Step of the angle.
 ///

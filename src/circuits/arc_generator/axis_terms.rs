@@ -8,7 +8,7 @@
 //! ```
 
 use crate::circuits::blocks::RecordWord;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Word of a record that is kx; the others follow.
 pub const AXIS_WORD: u64 = 19;

@@ -16,7 +16,7 @@ use super::{BlendRow, BlendWeight, Widths, blend_row, blend_weight};
 use crate::circuits::blocks::{
     CoefficientControl, DifferenceColumn, RecordWord, coefficient_control, difference_column,
 };
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Word of a record that is h where a segment begins; 1/M follows, as whole and part.
 pub const SHARE_WORD: u64 = 10;

@@ -15,7 +15,7 @@
 use super::Widths;
 use super::rotation_row::halved;
 use crate::circuits::blocks::RecordWord;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Row of a blend, of x, y or z.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

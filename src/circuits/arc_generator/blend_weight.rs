@@ -13,7 +13,7 @@
 //! weight; in the third the bits of h and of the weight go to the rows. Both products are rounded
 //! to nearest.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the passes.
 const PASSES: &[&str] = &["square", "weight", "point"];

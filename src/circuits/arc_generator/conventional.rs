@@ -24,7 +24,7 @@ use crate::circuits::blocks::{
     CoefficientControl, Cordic, DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer,
     coefficient_control, cordic, difference_engine, enable_counter, record_sequencer,
 };
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Elements of the matrix, row by row.
 const ELEMENTS: &[&str] = &[

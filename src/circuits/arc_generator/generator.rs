@@ -18,7 +18,7 @@ use crate::circuits::blocks::{
     DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, RecordWrite, difference_engine,
     enable_counter, record_memory, record_sequencer,
 };
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the difference engines.
 const ENGINES: &[&str] = &["engine_x", "engine_y", "engine_z"];

@@ -13,7 +13,7 @@
 //! last bit shifted out rounds the result.
 
 use super::rotation_row::halved;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Sign of an element's second term.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]

@@ -14,7 +14,7 @@
 
 use super::Widths;
 use crate::circuits::blocks::RecordWord;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Position command.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

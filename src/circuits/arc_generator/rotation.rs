@@ -14,7 +14,7 @@
 use super::rotation_row::{self, ROWS};
 use super::{RotationRow, Rounding, Widths};
 use crate::circuits::blocks::{CoefficientControl, RecordWord, coefficient_control};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Rotation of vectors by a matrix of coefficients; see [`RotationRow`].
 ///

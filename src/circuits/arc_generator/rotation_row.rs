@@ -16,7 +16,7 @@
 
 use super::{Rounding, VectorRow, Widths};
 use crate::circuits::blocks::RecordWord;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the rows of x, y and z.
 pub(super) const ROWS: &[&str] = &["row_x", "row_y", "row_z"];

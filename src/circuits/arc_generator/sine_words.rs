@@ -9,7 +9,7 @@
 //!           └────────────┘
 //! ```
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Bits that CORDIC has below a coefficient's last.
 pub const FINE: usize = 6;

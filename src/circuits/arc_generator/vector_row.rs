@@ -14,7 +14,7 @@
 use super::rotation_row::{Net, Products, sum};
 use super::{Rounding, Widths};
 use crate::circuits::blocks::RecordWord;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Word of a record that is GA's x; y and z follow.
 pub const VECTOR_WORD: u64 = 16;

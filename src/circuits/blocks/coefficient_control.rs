@@ -10,7 +10,7 @@
 //! A coefficient has two's complement bits of weights 2^−B … 2^−1, 1 and −2. The rows take them
 //! from the lowest up, a bit a tick; after a bit of the fraction they halve their sum.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Control for coefficients with B = `coefficient` − 2 fraction bits.
 ///

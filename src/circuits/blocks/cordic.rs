@@ -11,7 +11,7 @@
 //! ```
 
 use super::{CordicState, Shifter, cordic_state, shifter};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// CORDIC.
 ///

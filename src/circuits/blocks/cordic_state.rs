@@ -15,7 +15,7 @@
 //! whatever its sign: by their product, [`GAIN`], in all. To get a vector in its own length,
 //! divide it by the gain beforehand.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 use std::f64::consts::TAU;
 
 /// Factor by which a vector is lengthened: the product of √(1 + 4^−n) over all iterations of a

@@ -16,7 +16,7 @@
 
 use super::record_memory::RecordWord;
 use crate::hdl::Registers;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Widths of a column and of the records it is loaded from, in bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

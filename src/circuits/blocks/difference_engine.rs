@@ -16,7 +16,7 @@
 
 use super::difference_column::{self, DifferenceColumn, Widths};
 use super::record_memory::RecordWord;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Difference engine of a coordinate.
 ///

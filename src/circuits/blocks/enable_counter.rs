@@ -16,7 +16,7 @@
 //!
 //! Departures: the text has RST on "equal".
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Enable counter; `enable` is high in the last tick of every `period` ticks.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

@@ -12,7 +12,7 @@
 //! The product is made from the multiplier's lowest bit up, on top of the addend; the division
 //! restores, from the dividend's highest bit down. Dividend and quotient share a register.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the states.
 const STATES: &[&str] = &["idle", "multiply", "divide"];

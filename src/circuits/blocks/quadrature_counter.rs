@@ -17,7 +17,7 @@
 //! additions. Nothing is counted until the three flip-flops hold samples, whatever the initial
 //! levels of the channels.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Samples that fill the flip-flops of a channel.
 const FILLED: u64 = 3;

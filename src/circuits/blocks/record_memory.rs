@@ -14,7 +14,7 @@
 //! completes it by `push`; records that wait are taken first in, first out, and each is free again
 //! when its last word has been read. A path may so be of any length.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Words of a record.
 pub const RECORD: usize = 32;

@@ -20,7 +20,7 @@
 //! samples outputs its starting point.
 
 use super::record_memory::{ARC, KINDS, RecordWord};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the states.
 const STATES: &[&str] = &["idle", "fetch", "step", "rotate", "ready"];

@@ -13,7 +13,7 @@
 //! word; the bits that rounding drops are lost, so to keep a fraction, pass it as the lower bits
 //! of the value.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Scaler.
 ///

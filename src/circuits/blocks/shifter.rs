@@ -7,7 +7,7 @@
 //!         └─────────┘
 //! ```
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Shifter for signed words.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

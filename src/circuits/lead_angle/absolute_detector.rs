@@ -13,7 +13,7 @@
 //! `sample` is CK of the memory 11, as the text advises.
 
 use super::{GrayReceiver, Unwrapper, gray_receiver, unwrapper};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Absolute detector of a turn, with a position that continues over the turns.
 ///

@@ -19,7 +19,7 @@
 //! signal without a crossing, are additions.
 //! gives the control signal without a crossing, are additions.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// When the comparator finds that the target is reached.

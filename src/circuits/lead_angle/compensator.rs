@@ -29,7 +29,7 @@ use super::{
     target_setter, time_data, time_lead, touch_probe,
 };
 use crate::circuits::blocks::{EnableCounter, enable_counter};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Compensator.
 ///

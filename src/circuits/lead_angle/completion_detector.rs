@@ -12,7 +12,7 @@
 //! Departure: the text leaves open how long a standstill has to last and which of the two
 //! conditions is used. Both are, and `timed_out` tells which one it was.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Completion detector 26; `complete` shows in the tick after the sample that decides.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

@@ -17,7 +17,7 @@ use super::grid::{self, Grid, GridPart};
 use super::{CorrectionArithmetic, Division, ExactRelation, Refinement, Sign, StopError};
 use super::{correction_arithmetic, exact_relation, refinement, stop_error};
 use crate::circuits::blocks::{MulDiv, mul_div};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Δtd that the correction 28 makes of error and overrun.

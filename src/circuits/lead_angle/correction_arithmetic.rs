@@ -16,7 +16,7 @@
 //! CK and at most the last code. A positioning that was halted teaches nothing.
 
 use super::codes;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Correction arithmetic 28.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

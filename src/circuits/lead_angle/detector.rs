@@ -6,7 +6,7 @@ use super::{
     absolute_detector, phase_detector, resolver_detector,
 };
 use crate::circuits::blocks::{QuadratureCounter, quadrature_counter};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// The kind of a compensator's position detector.

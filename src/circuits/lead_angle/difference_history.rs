@@ -15,7 +15,7 @@ use super::codes::tap_width;
 use super::position_history::{
     In, Net as Taking, Pair, moved_on, nets, objection, pair_after, ratio_follows, stored,
 };
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Position history whose tap takes a difference.
 ///

@@ -12,7 +12,7 @@
 //! Departure: a tap of 0 is no lead, whatever N comes with it.
 
 use super::codes::{tap_width, time_width};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Source of N.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]

@@ -14,7 +14,7 @@
 //! or past it when the control signal comes, d1 − d2 says nothing of the speed. Then |d1| divides:
 //! the first order, which at least doubles the time.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Divisor of the exact relation.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

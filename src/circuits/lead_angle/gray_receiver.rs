@@ -16,7 +16,7 @@
 //! A turn of T counts has the T words in the middle of the code, (2^code − T)/2 on either side being
 //! unused: so where T is even its last word and its first differ in one bit too.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Receiver of Gray words; a word at the pins from tick n on, with its strobe, is taken in n + 3.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

@@ -1,7 +1,7 @@
 //! Grid of the times that can be set, to which learned and written times are limited.
 
 use super::{DividedTime, Division, RatioLogic, TimeLimit, codes, ratio_logic, time_limit};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 choice! {
     /// The grid of a division.

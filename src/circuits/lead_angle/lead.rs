@@ -14,7 +14,7 @@
 //! nothing.
 
 use super::LeadProducts;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Subtractor and multiplier. Combinational.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

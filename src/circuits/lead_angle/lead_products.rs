@@ -13,7 +13,7 @@
 //! nothing more is added.
 
 pub use super::lead::In;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Prediction from two products. Combinational.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

@@ -1,7 +1,7 @@
 //! Sources of a compensator's lead.
 
 use super::{Division, Form, LeadTable, Memory, SpeedLead, TableLead, TimeLead, grid};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// The forms of the time lead that the text gives as equal, each in a compensator.

@@ -23,7 +23,7 @@
 //! secondary's own period is monitored: a crossing within 3/4 of the carrier's period since the
 //! one before, and none within 5/4, are faults, and such a sample is not taken for a place.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Phase counter. A crossing at the pin in tick n is latched in n + 3; a period's place is taken two
 /// ticks after 0 phase.

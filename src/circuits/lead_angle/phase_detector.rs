@@ -16,7 +16,7 @@
 //! sampling clock of the detector, a pulse for each period of the reference signal.
 
 use super::{PhaseCounter, Unwrapper, phase_counter, unwrapper};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Phase-shift detector, with a position that continues over the pitches.
 ///

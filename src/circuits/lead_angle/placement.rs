@@ -12,7 +12,7 @@
 //! Departure: the text says of the third that half the lead is subtracted from Dx; it has to be
 //! added.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Value that the lead is added to.

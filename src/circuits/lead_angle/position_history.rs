@@ -18,7 +18,7 @@
 use super::codes::tap_width;
 use super::{DifferenceHistory, RamHistory};
 use crate::check::Verdict;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Position history as a shift register.
 ///

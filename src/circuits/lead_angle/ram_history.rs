@@ -12,7 +12,7 @@
 
 use super::codes::tap_width;
 use super::position_history::{In, Net, Pair, nets, objection, pair_after, ratio_follows, stored};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Position history in a RAM, which has a word for every tap that there can be.
 ///

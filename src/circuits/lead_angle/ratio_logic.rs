@@ -16,7 +16,7 @@
 //! lead.
 
 use super::codes;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// 2^17 / 5, rounded up: below 43,690 the product's integer part is a fifth, exactly.
 const FIFTH: u64 = (1 << 17) / 5 + 1;

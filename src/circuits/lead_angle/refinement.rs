@@ -15,7 +15,7 @@
 //! Departure: the text names a quadratic function and gives none. Where |d2| is not below |d1| the
 //! series that this begins does not converge, so the first division is kept: the first order.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the states.
 const STATES: &[&str] = &["idle", "first", "second"];

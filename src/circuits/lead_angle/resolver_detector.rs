@@ -17,7 +17,7 @@
 
 use super::{TrackingConverter, Unwrapper, tracking_converter, unwrapper};
 use crate::circuits::blocks::{Scaler, scaler};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Resolver detector, with a position that continues over the pitches.
 ///

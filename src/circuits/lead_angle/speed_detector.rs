@@ -11,7 +11,7 @@
 //! over: on average it is a whole gate old.
 
 use super::TableLead;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Speed detector. A position that is present in the tick of CK is at `present` in the next tick.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

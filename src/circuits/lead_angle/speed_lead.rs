@@ -10,7 +10,7 @@
 //! The lead is speed times `lead_parameter` (a), rounded down: θa = f(ν, a) for a constant stopping time.
 
 use super::{SpeedDetector, speed_detector};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Conventional lead. A position that is present in the tick of CK is at `present` in the next
 /// tick.

@@ -22,7 +22,7 @@
 //!
 //! `halt` during *move* gives the control signal by hand; in either case nothing is learned.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Step sequencer. `load` shows in the tick after `run`, `drive` in the tick after the first sample
 /// from two ticks after `run` on; it goes in the tick after `control` came.

@@ -13,7 +13,7 @@
 //! Departure: the text's error is Sx − Dx. With it learning goes the wrong way: the relative error
 //! r of a time becomes r² where it should become (1 − r)². That is the variant [`Sign::Literal`].
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Sign convention of the error.

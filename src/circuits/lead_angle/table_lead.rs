@@ -17,7 +17,7 @@
 
 use super::SpeedDetector;
 pub use super::speed_detector::In;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Leads by speed, as a memory holds them: f(ν) at every 2^`fraction` counts.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

@@ -11,7 +11,7 @@
 //! Departure: the speed is stored with the target, since the drive needs one for each step too.
 
 use super::position_history::stored;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Target setter 18; a step is at the outputs in the tick after `load`.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

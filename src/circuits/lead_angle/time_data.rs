@@ -15,7 +15,7 @@
 //! logic](super::ratio_logic), or in the tick in which a learned time is written, is refused and
 //! flagged. Buffer 29 is the memory's output register.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Time data supply 21; a time is at the output in the tick after `load`.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

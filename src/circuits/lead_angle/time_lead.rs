@@ -17,7 +17,7 @@ use super::{
     DifferenceHistory, DividedTime, Division, Lead, LeadProducts, PositionHistory, RamHistory,
     RatioLogic, codes, divided_time, lead, lead_products, position_history, ratio_logic,
 };
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// The two forms of the memory 11.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]

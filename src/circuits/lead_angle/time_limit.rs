@@ -14,7 +14,7 @@
 //! longest of the history takes its place, and `on_grid` is low.
 
 use super::codes::tap_width;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Limit of times that are taps. Combinational.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

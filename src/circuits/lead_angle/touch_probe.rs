@@ -12,7 +12,7 @@
 //! moves on. A sensor then says when the operation takes effect. At its rise the count of the
 //! detector is latched, not a sample, which would be up to a CK older.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Touch probe; `taken` and the count show in the tick after the rise of `effect`.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

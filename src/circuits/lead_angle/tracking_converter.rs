@@ -17,7 +17,7 @@
 
 use super::{TrackingLoop, tracking_loop};
 use crate::circuits::blocks::{Cordic, cordic};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Tracking converter.
 ///

@@ -24,7 +24,7 @@
 //! Departures: the text has no such loop. The first conversions after power-on are given to it to
 //! settle, and no place is taken of them.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Tracking loop. The result of a conversion is in `phase` from the tick after `done` on, for the
 /// next one.

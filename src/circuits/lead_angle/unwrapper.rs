@@ -17,7 +17,7 @@
 //! of the modulus per sample is counted, but `lost` is high: from half of it on a move looks like
 //! one in the other direction. A place with `fault` is not counted, and sets `lost` too.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Unwrapper; a place taken in tick n is in `position` from n + 1 on, with `sample` in that tick.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

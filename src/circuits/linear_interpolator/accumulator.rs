@@ -19,7 +19,7 @@
 //! for the master is not taken.
 
 use super::Integrator;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 use serde::Deserialize;
 
 /// Rounding rule of the integrator 24, which determines the remainder.

@@ -14,7 +14,7 @@
 //! belong together.
 
 use super::wrapped;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Axis switch; a command shows in the tick after `load`.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

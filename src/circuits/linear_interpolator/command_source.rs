@@ -11,7 +11,7 @@
 
 use super::target_data::Settings;
 use super::*;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 choice! {
     /// Source of the position commands.

@@ -15,7 +15,7 @@
 use super::command_source::Orders;
 use super::*;
 use crate::circuits::blocks::{EnableCounter, enable_counter};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Controller 1 around a source of commands.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

@@ -17,7 +17,7 @@
 use super::command_source::ports_out;
 pub use super::command_source::{In, Net};
 use super::*;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Conventional system, with widths as those of the linear interpolator.
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]

@@ -10,7 +10,7 @@
 //! Departure: the text has no such gate. Without it a cycle begins while the motors still follow
 //! the one before, and they cut the corner.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Cycle gate, with a tick of latency.
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]

@@ -13,7 +13,7 @@
 //! so that the first increment is that of the first scan.
 
 use super::wrapped;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Differentiator 21; without latency.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

@@ -14,7 +14,7 @@
 pub use super::accumulator::Motion as In;
 use super::{Accumulator, Rule, accumulator};
 use crate::circuits::blocks::{MulDiv, mul_div};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Integrator 24.
 ///

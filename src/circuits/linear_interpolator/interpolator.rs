@@ -12,7 +12,7 @@
 use super::command_source::ports_out;
 pub use super::command_source::{In, Net};
 use super::*;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Linear interpolator.
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]

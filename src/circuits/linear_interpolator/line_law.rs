@@ -10,8 +10,9 @@
 //! ```
 
 use super::{Integrator, Rule, integrator};
-use crate::hdl::prelude::*;
-use crate::hdl::{Registers, Sample};
+use crate::hdl::Registers;
+use crate::prelude::*;
+use crate::sim::Sample;
 
 /// An integrator with its increments added up.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

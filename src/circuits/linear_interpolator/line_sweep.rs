@@ -15,7 +15,7 @@
 
 use super::{Integrator, Rule, integrator};
 use crate::check::Law;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// The law of I and B of an integrator after two increments, for every distance of the axes but a
 /// master's of 0, and every two increments.

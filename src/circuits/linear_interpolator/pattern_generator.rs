@@ -15,7 +15,7 @@
 pub use super::trapezoid::Cycle as In;
 use super::{Trapezoid, trapezoid};
 use crate::circuits::blocks::{MulDiv, mul_div};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Position pattern generator 14.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

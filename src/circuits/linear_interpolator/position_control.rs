@@ -20,7 +20,7 @@
 //! in both directions.
 
 use super::LoopWidths;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Position control.
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]

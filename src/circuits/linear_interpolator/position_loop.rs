@@ -16,7 +16,7 @@
 
 use super::{LoopWidths, PositionControl, position_control, wrapped};
 use crate::circuits::blocks::{QuadratureCounter, quadrature_counter};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Position loop.
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]

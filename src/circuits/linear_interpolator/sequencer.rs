@@ -21,7 +21,7 @@
 //! distance would be a division by zero.
 
 use crate::hdl::Registers;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 use serde::Deserialize;
 
 /// Names of the states.

@@ -13,7 +13,7 @@
 //! times along.
 
 use super::Widths;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the settings of a target: one for both axes, or X's and Y's.
 const SPEED: &[&str] = &["speed", "speed_y"];

@@ -24,7 +24,7 @@
 //! 2^(P−1) − 1 steady scans, and goes faster than V where those are too few.
 
 use super::PatternGenerator;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the states: at rest, four steps of the preparation, between scans, in a scan.
 pub const STATES: &[&str] = &[

@@ -20,7 +20,7 @@ use crate::circuits::pulse_interpolator::{self, Group, group};
 use crate::circuits::trajectory_controller::error_feedback::FeedbackGains;
 use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::{self, TrajectoryController, controller};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Two steppers, two servos and a pen lift on one clock.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

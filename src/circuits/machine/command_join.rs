@@ -13,7 +13,7 @@
 //! whole path. It is sampled once in a sampling time, so a circuit that computes with it in
 //! between sees a constant value.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Join of two distances. A command shows one tick after `take`.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

@@ -13,7 +13,7 @@
 //! period in this tick, one of all ones never does before ours.
 
 use crate::circuits::blocks::{EnableCounter, enable_counter};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Four enable counters. Periods of as many ticks as a word holds, in any ratio; all begin at
 /// power-on.

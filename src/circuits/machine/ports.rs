@@ -10,7 +10,7 @@ use crate::circuits::pulse_interpolator::pattern_memory::WritePort;
 use crate::circuits::trajectory_controller::TrajectoryController;
 use crate::circuits::trajectory_controller::model_state::ModelGains;
 use crate::circuits::trajectory_controller::path_point::PathWrite;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the axes' ports.
 const A_NAMES: &[&str] = &["a_x", "a_y"];

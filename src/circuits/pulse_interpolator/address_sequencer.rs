@@ -15,7 +15,7 @@
 //! stops; stopped, the address is held and no axis gets pulses. At power-on the sequencer is
 //! idle; a pattern begins at the first RST after its command.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the states.
 pub const STATES: &[&str] = &["IDLE", "RUN"];

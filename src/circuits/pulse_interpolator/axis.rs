@@ -12,7 +12,7 @@
 use super::pattern_memory::WritePort;
 use super::{PatternMemory, PulseGenerator, SyncStage, Variant};
 use super::{pattern_memory, pulse_generator, sync_stage};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// One axis, with the widths of its memory.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

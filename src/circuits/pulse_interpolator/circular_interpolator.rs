@@ -19,7 +19,7 @@
 
 use super::motor_controller::{MotorController, Move};
 use crate::circuits::blocks::Cordic;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// G: bits of a coordinate below the step.
 pub const GUARD: usize = 8;

@@ -18,7 +18,7 @@
 //! contents the port starts a pattern without a command: the free-running operation of ¶0032.
 
 use super::Pattern;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Command port of the control computer 2, one command deep.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

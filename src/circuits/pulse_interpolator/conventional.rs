@@ -17,7 +17,7 @@ use super::motor_controller::{self, ConventionalWidths, Move};
 use super::{AXIS_NAMES, MotorController, PulseTrain, UnitTimeRegister};
 use super::{group, pulse_train, unit_time_register};
 use crate::circuits::blocks::{Cordic, EnableCounter, MulDiv, cordic, enable_counter, mul_div};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Conventional device of 1 to 8 axes.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

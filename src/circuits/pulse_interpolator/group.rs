@@ -17,7 +17,7 @@ use super::{AXES_MAX, AXIS_NAMES, AddressSequencer, Axis, CommandPort, Pattern, 
 use super::{UnitTimeRegister, Variant, Widths};
 use super::{address_sequencer, axis, command_port, pulse_generator, unit_time_register};
 use crate::circuits::blocks::{EnableCounter, enable_counter};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the step outputs.
 pub(super) const STEP: &[&str] = &[

@@ -16,7 +16,7 @@
 use super::group::{self, In as Control, Net as Lines};
 use super::pattern_memory::Contents;
 use super::{Group, Variant, Widths};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 

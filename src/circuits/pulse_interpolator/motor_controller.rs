@@ -29,7 +29,7 @@
 
 use super::{AXES_MAX, AXIS_NAMES};
 use crate::circuits::blocks::MulDiv;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the states.
 const STATES: &[&str] = &["wait", "amount", "length", "prepared"];

@@ -18,7 +18,7 @@
 //! text's EPROM.
 
 use super::Widths;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Contents of an axis's memory at power-on.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

@@ -17,7 +17,7 @@
 //! `count + 1 == half_period`.
 
 use super::Variant;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Pulse generator 20.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

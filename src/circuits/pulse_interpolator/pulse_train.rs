@@ -15,7 +15,7 @@
 //! Departures: the text has no direction; `dir` changes with the first tick of a train, and with no
 //! train of 0 pulses. A half-period of 0 gives no pulse.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Pulse generator 6x, 6y.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

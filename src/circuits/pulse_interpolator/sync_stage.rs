@@ -8,7 +8,7 @@
 //!             └────────────┘
 //! ```
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Sync stage 40: one tick of latency, low in the first tick of every unit time.
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]

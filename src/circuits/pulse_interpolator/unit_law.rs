@@ -10,7 +10,7 @@
 
 use super::{PulseGenerator, SyncStage, Variant, counts, pulse_generator, sync_stage};
 use crate::circuits::blocks::{EnableCounter, enable_counter};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Unit times of free data.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

@@ -14,7 +14,7 @@
 //! shadow register until RST, so no unit time is cut or stretched; a pattern brings its T along,
 //! and that T is in force from the pattern's first unit time on.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Shadow and active register of T.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

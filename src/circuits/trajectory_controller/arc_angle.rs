@@ -14,7 +14,7 @@
 //! the angle's unit. Bits that overflow are whole turns.
 
 use super::widths::PointWidths;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the states.
 const STATES: &[&str] = &["idle", "multiply", "shift"];

@@ -16,7 +16,7 @@
 //! One bit of all coefficients per tick, from the lowest up; nothing is lost before the rounding.
 
 use super::widths::PointWidths;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Row of an axis.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

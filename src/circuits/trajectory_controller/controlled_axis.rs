@@ -12,7 +12,7 @@ use super::model_state::ModelGains;
 use super::servo_arithmetic::ServoGains;
 use super::vector_correction::Correction;
 use super::{ReferenceModel, Servo, VectorCorrection, reference_model, servo, vector_correction};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Axis of the trajectory controller.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

@@ -23,7 +23,7 @@ use crate::circuits::blocks::{
     DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, RecordWrite, difference_column,
     difference_engine, enable_counter, record_memory, record_sequencer,
 };
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Width of a profile record's number in bits: the buffer holds 2^`RECORDS` records.
 const RECORDS: usize = 4;

@@ -16,7 +16,7 @@
 //! factor per tick, all axes at once, each of the three products rounded down.
 
 use super::path_point::of_axes;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the states.
 const STATES: &[&str] = &["idle", "project", "split", "scale"];

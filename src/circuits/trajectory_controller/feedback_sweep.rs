@@ -15,7 +15,7 @@
 use super::path_point::{AXIS_NAMES, of_axes};
 use super::{ErrorFeedback, error_feedback};
 use crate::check::Law;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// The law of the feedback from power-on.
 #[derive(Debug, Clone)]

@@ -12,7 +12,7 @@
 //! the end. The command's length is clamped too, whatever the profile says. With `back`, a length
 //! is clamped after a subtraction, which gives the point behind another.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Clamp of lengths.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

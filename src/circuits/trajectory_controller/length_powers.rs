@@ -13,7 +13,7 @@
 //! a line's is (¶0031: "coefficients as path data").
 
 use super::widths::PointWidths;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the states.
 const STATES: &[&str] = &["idle", "square", "cube"];

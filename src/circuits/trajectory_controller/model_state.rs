@@ -15,7 +15,7 @@
 //! put back, so a mirrored target gives the mirrored response.
 
 use super::Rounding;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the states.
 const STATES: &[&str] = &["idle", "first_gain", "second_gain"];

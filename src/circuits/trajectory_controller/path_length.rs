@@ -12,7 +12,7 @@
 //! From power-on and from `restart` to its first length there is no path: its segments may be
 //! written, and no point is looked up.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Register of a length.
 ///

@@ -19,7 +19,7 @@ use super::{
     axis_row, length_powers, point_sequencer, segment_search, segment_store,
 };
 use crate::circuits::blocks::{CoefficientControl, Cordic, coefficient_control, cordic};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the axes.
 pub const AXIS_NAMES: [&str; 4] = ["x", "y", "z", "w"];

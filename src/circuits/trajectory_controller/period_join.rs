@@ -16,7 +16,7 @@
 //! With the first point of a path the servo responses are set to it, at rest: the path begins
 //! where the machine is, and rounding errors of the path before are not corrected in this one.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Join of the reference point and the servo responses.
 ///

@@ -13,7 +13,7 @@
 //! ```
 
 use super::widths::PointWidths;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the states.
 const STATES: &[&str] = &[

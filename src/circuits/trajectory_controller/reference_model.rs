@@ -15,7 +15,7 @@
 use super::model_state::{ModelGains, ModelWidths};
 use super::{ModelState, Rounding, model_state};
 use crate::circuits::blocks::{Scaler, scaler};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Reference model.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

@@ -13,7 +13,7 @@
 //! on P0P1; if it is at least l1 and less than l1 + l2, on P1P2".
 
 use super::widths::PointWidths;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the states.
 const STATES: &[&str] = &["idle", "read", "compare"];

@@ -11,7 +11,7 @@
 //! begins; while it runs any of them is fetched, as often as a length belongs to it.
 
 use super::widths::PointWidths;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Words of a segment for three axes.
 pub const WORDS: usize = 16;

@@ -13,7 +13,7 @@ use super::model_state::ModelGains;
 use super::servo_arithmetic::{ServoGains, ServoWidths};
 use super::{ReferenceModel, Rounding, ServoArithmetic, reference_model, servo_arithmetic};
 use crate::circuits::blocks::{QuadratureCounter, Scaler, quadrature_counter, scaler};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Servo control.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]

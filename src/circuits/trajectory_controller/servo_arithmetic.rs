@@ -18,7 +18,7 @@
 //! beyond.
 
 use super::model_state::ModelWidths;
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Names of the states.
 const STATES: &[&str] = &[

@@ -11,7 +11,7 @@
 //!
 //! E = Pr − Ps, Pd = Pc + E: the deviation of the response from the path is added to the command.
 
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 
 /// Correction added to the position commands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]

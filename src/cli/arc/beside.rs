@@ -6,7 +6,6 @@ use super::mechanism::{Jolt, Jolting};
 use super::verdict::bounds;
 use crate::cli::Failure;
 use motion_rtl::circuits::arc_generator::{Conventional, Widths};
-use motion_rtl::hdl::{self, RunError};
 use motion_rtl::input::Point;
 use motion_rtl::jobs::arc_generator::beside::{play_each, records};
 use motion_rtl::jobs::arc_generator::bounds::conventional_error;
@@ -17,6 +16,7 @@ use motion_rtl::jobs::arc_generator::prepared::Shape;
 use motion_rtl::path::circle::Circle;
 use motion_rtl::path::record::Record;
 use motion_rtl::path::vector::distance;
+use motion_rtl::sim::{Elaborated, RunError};
 use serde::Serialize;
 
 /// Arcs by the conventional circuit; empty if there are none or one of them is not run.
@@ -253,7 +253,7 @@ pub struct Row {
 }
 
 impl Row {
-    fn of(model: &hdl::Model, played: &Played, [error, bound]: [f64; 2]) -> Self {
+    fn of(model: &Elaborated, played: &Played, [error, bound]: [f64; 2]) -> Self {
         let cost = model.cost();
         let needed = played.needed;
         let there = |ticks: u64| (ticks > 0).then_some(ticks);
@@ -285,7 +285,11 @@ pub fn rows(job: &Job, played: &Played, figures: &Figures) -> Result<Vec<Row>, R
     let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     let own = figures.measured.as_ref().map_or(0.0, |m| m.largest_error);
     let own = [own, most(&mut bounds(job, &figures.arcs).into_iter())];
-    let own = Row::of(&hdl::model(&arc_generator(&job.settings))?, played, own);
+    let own = Row::of(
+        &Elaborated::new(&arc_generator(&job.settings))?,
+        played,
+        own,
+    );
     if !compared {
         return Ok(vec![own]);
     }
@@ -297,7 +301,7 @@ pub fn rows(job: &Job, played: &Played, figures: &Figures) -> Result<Vec<Row>, R
     Ok(vec![
         own,
         Row::of(
-            &hdl::model(&Conventional::new(rounding))?,
+            &Elaborated::new(&Conventional::new(rounding))?,
             &beside.played,
             other,
         ),

@@ -28,9 +28,9 @@ use super::traces::{End, Focus};
 use beside::Beside;
 use figures::UnderWay;
 use motion_rtl::circuits::arc_generator::ArcGenerator;
-use motion_rtl::hdl::{Observer, RunError};
 use motion_rtl::jobs::arc_generator::conventional::Conventional as Method;
 use motion_rtl::jobs::arc_generator::job::{Command, Played, arc_generator, play_each};
+use motion_rtl::sim::{Observer, RunError};
 use picture::draw;
 use summary::Summary;
 

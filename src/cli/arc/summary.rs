@@ -11,10 +11,10 @@ use super::rows::{self, ArcRow, BlendRow, LineRow};
 use super::verdict::{bounds, complaints};
 use crate::cli::report::Outcome;
 use motion_rtl::circuits::arc_generator::Widths;
-use motion_rtl::hdl::RunError;
 use motion_rtl::jobs::arc_generator::job::Played;
 use motion_rtl::jobs::arc_generator::settings::{Settings, least_sample_ticks};
 use motion_rtl::path::record::WORDS;
+use motion_rtl::sim::RunError;
 use serde::Serialize;
 
 /// The summary of a run.

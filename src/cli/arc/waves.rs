@@ -6,13 +6,14 @@ use crate::cli::Failure;
 use crate::cli::traces::{End, Focus};
 use crate::cli::waves_of::{Ending, System};
 use motion_rtl::circuits::arc_generator::{ArcGenerator, Conventional};
-use motion_rtl::hdl::{Circuit, Model, Observer, RunError, model, model_beside};
+use motion_rtl::hdl::Circuit;
 use motion_rtl::input::COORDINATES;
 use motion_rtl::jobs::arc_generator::beside::play_each;
 use motion_rtl::jobs::arc_generator::conventional::Conventional as Method;
 use motion_rtl::jobs::arc_generator::job::{Command, Played, arc_generator};
 use motion_rtl::jobs::arc_generator::joints::{Following, Hand, Joints};
 use motion_rtl::path::record::Record;
+use motion_rtl::sim::{Elaborated, Observer, RunError};
 
 /// Rows on top of the save file of the conventional generator.
 const CONVENTIONAL_OVERVIEW: [&str; 12] = [
@@ -54,10 +55,10 @@ pub fn systems(job: &Job) -> Vec<System<'_>> {
 }
 
 /// A circuit, with an arm beside it if there is one.
-pub fn shown<C: Circuit>(circuit: &C, arm: bool) -> Result<Model, RunError> {
+pub fn shown<C: Circuit>(circuit: &C, arm: bool) -> Result<Elaborated, RunError> {
     Ok(match arm {
-        false => model(circuit),
-        true => model_beside(circuit, &Joints),
+        false => Elaborated::new(circuit),
+        true => Elaborated::with_beside(circuit, &Joints),
     }?)
 }
 

@@ -19,10 +19,10 @@ use super::setup::Setup;
 use super::simulate::{Stage, with_waves};
 use super::threads;
 use super::traces::{End, Focus};
-use motion_rtl::hdl::{RunError, model_beside};
 use motion_rtl::jobs::lead_angle::job::{Played, play, positioner};
 use motion_rtl::jobs::lead_angle::settings::{History, LeadBy, Settings};
 use motion_rtl::plant::waves::Body;
+use motion_rtl::sim::{Elaborated, RunError};
 use rayon::prelude::*;
 use summary::Summary;
 use systems::{NONE, System, systems};
@@ -80,7 +80,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let circuit = positioner(settings);
     let stage = Stage {
         circuit: &circuit,
-        model: &model_beside(&circuit, &Body).map_err(RunError::from)?,
+        model: &Elaborated::with_beside(&circuit, &Body).map_err(RunError::from)?,
         subject: &job.stem,
         work: Work {
             ticks,

@@ -5,9 +5,9 @@ use super::{Job, alone, end, log};
 use crate::cli::Failure;
 use crate::cli::waves_of::{Ending, System};
 use motion_rtl::circuits::lead_angle::Compensator;
-use motion_rtl::hdl::{Observer, RunError, model_beside};
 use motion_rtl::jobs::lead_angle::job::{play, positioner};
 use motion_rtl::plant::waves::Body;
+use motion_rtl::sim::{Elaborated, Observer, RunError};
 
 /// The systems of the summary; of a log the one that is replayed.
 pub fn systems(job: &Job) -> Vec<System<'_>> {
@@ -23,7 +23,7 @@ pub fn systems(job: &Job) -> Vec<System<'_>> {
                 system.set_up(&alone(&none)?);
             }
             let circuit = positioner(&system.settings);
-            let model = model_beside(&circuit, &Body).map_err(RunError::from)?;
+            let model = Elaborated::with_beside(&circuit, &Body).map_err(RunError::from)?;
             let run = move |circuit: &Compensator, observer: &mut dyn Observer<Compensator>| {
                 let played = play(circuit, &system.settings, observer)?;
                 Ok::<_, Failure>(Ending {

@@ -20,13 +20,13 @@ use super::waves_of::{Ending, System};
 use super::{Failure, threads};
 use job::Other;
 use motion_rtl::circuits::linear_interpolator::Controller;
-use motion_rtl::hdl::{Observer, RunError, model_beside};
 use motion_rtl::jobs::linear_interpolator::job::{conventional, play_each, plotter};
 use motion_rtl::jobs::linear_interpolator::measure::Seen;
 use motion_rtl::jobs::linear_interpolator::settings::{AXIS_NAMES, Settings};
 use motion_rtl::jobs::linear_interpolator::targets::Target;
 use motion_rtl::jobs::linear_interpolator::ways::Way;
 use motion_rtl::plant::waves::Axes;
+use motion_rtl::sim::{Elaborated, Observer, RunError};
 use picture::draw;
 use runs::{Run, Runs, UnderWay};
 use std::thread;
@@ -75,7 +75,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let runs = if job.other.is_some() { 4 } else { 1 };
     let stage = Stage {
         circuit: &circuit,
-        model: &model_beside(&circuit, &Axes).map_err(RunError::from)?,
+        model: &Elaborated::with_beside(&circuit, &Axes).map_err(RunError::from)?,
         subject: &job.drawing.file,
         work: Work {
             ticks,
@@ -201,7 +201,7 @@ fn system<'a, const N: usize, const R: usize>(
 ) -> System<'a> {
     System::new(name, job.ticks_at_least(), move || {
         let (circuit, targets, overview) = make();
-        let model = model_beside(&circuit, &Axes).map_err(RunError::from)?;
+        let model = Elaborated::with_beside(&circuit, &Axes).map_err(RunError::from)?;
         let run = move |circuit: &Controller, observer: &mut dyn Observer<Controller>| {
             let mut last = [0; 2];
             let mut begun = None;

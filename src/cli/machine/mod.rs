@@ -19,11 +19,12 @@ use super::simulate::{Stage, with_waves};
 use super::traces::{End, Focus};
 use super::waves_of::{Ending, System};
 use motion_rtl::circuits::machine::Machine;
-use motion_rtl::hdl::{Circuit, Observer, RunError, model_beside};
+use motion_rtl::hdl::Circuit;
 use motion_rtl::jobs::machine::Settings;
 use motion_rtl::jobs::machine::job::{Played, machine, play_each};
 use motion_rtl::jobs::machine::waves::Plants;
 use motion_rtl::plan::Plan;
+use motion_rtl::sim::{Elaborated, Observer, RunError};
 use runs::UnderWay;
 use summary::Summary;
 
@@ -76,7 +77,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let ticks = job.ticks_at_least();
     let stage = Stage {
         circuit: &circuit,
-        model: &model_beside(&circuit, &Plants).map_err(RunError::from)?,
+        model: &Elaborated::with_beside(&circuit, &Plants).map_err(RunError::from)?,
         subject: &job.drawing.file,
         work: Work {
             ticks,
@@ -119,7 +120,7 @@ pub fn systems(job: &Job) -> Vec<System<'_>> {
     let (program, settings) = (&job.program, &job.settings);
     let system = System::new(Machine::NAME, job.ticks_at_least(), move || {
         let circuit = machine(settings);
-        let model = model_beside(&circuit, &Plants).map_err(RunError::from)?;
+        let model = Elaborated::with_beside(&circuit, &Plants).map_err(RunError::from)?;
         let run = move |circuit: &Machine, observer: &mut dyn Observer<Machine>| {
             let played = play_each(circuit, program, settings, observer, &mut |_| {})?;
             Ok(Ending {

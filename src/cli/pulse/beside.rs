@@ -5,12 +5,12 @@ use super::summary::Minima;
 use crate::cli::Failure;
 use crate::cli::source::drawing_fault;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
-use motion_rtl::hdl::{self, RunError};
 use motion_rtl::jobs::pulse_interpolator::beside::{device, least_period, orders, play};
 use motion_rtl::jobs::pulse_interpolator::job::{Played, group};
 use motion_rtl::jobs::pulse_interpolator::moves::{self, MoveError, Moves};
 use motion_rtl::jobs::pulse_interpolator::{UnitDemand, demanded};
 use motion_rtl::scenario::pulse_interpolator::ConventionalMoves;
+use motion_rtl::sim::{Elaborated, RunError};
 use serde::Serialize;
 
 /// A device.
@@ -42,7 +42,7 @@ pub struct Row {
 }
 
 impl Row {
-    fn costing(self, model: &hdl::Model) -> Self {
+    fn costing(self, model: &Elaborated) -> Self {
         let cost = model.cost();
         Row {
             circuit: model.name(),
@@ -74,7 +74,7 @@ fn most(values: impl Iterator<Item = f64>) -> f64 {
 
 /// The device as it played a job, without the search for its least T.
 pub fn own(job: &Job, played: &Played, end_error: f64) -> Result<Row, Failure> {
-    let model = hdl::model(&group(&job.table, job.variant.into())).map_err(RunError::from)?;
+    let model = Elaborated::new(&group(&job.table, job.variant.into())).map_err(RunError::from)?;
     let kept = |minima: Minima| minima.too_short(&job.settings.timing).next().is_none();
     let row = Row {
         circuit: "",
@@ -128,7 +128,7 @@ pub fn compare(job: &Job, own: Row) -> Result<(Vec<Row>, Vec<String>), Failure> 
     let circuit = device(axes, &orders);
     let beside = play(&circuit, &orders, None, &mut ())?;
     let kept = |minima: Minima| minima.too_short(timing).next().is_none();
-    let model = hdl::model(&circuit).map_err(RunError::from)?;
+    let model = Elaborated::new(&circuit).map_err(RunError::from)?;
     let own = Row {
         unit_ticks_least: Some(least_period(table, job.variant.into())?.into()),
         ..own

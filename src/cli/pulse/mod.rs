@@ -24,13 +24,13 @@ use super::setup::Setup;
 use super::simulate::{Stage, with_waves};
 use super::traces::{End, Focus};
 use motion_rtl::circuits::pulse_interpolator::Group;
-use motion_rtl::hdl::Observer;
+use motion_rtl::jobs::JobError;
 use motion_rtl::jobs::pulse_interpolator::job::{
     Computer, Played, fast_forward_by, group, play_by, play_motors,
 };
 use motion_rtl::jobs::pulse_interpolator::motors::Motors;
 use motion_rtl::jobs::pulse_interpolator::{ControlComputer, Table};
-use motion_rtl::settings::JobError;
+use motion_rtl::sim::Observer;
 use picture::{Following, draw};
 use summary::Summary;
 

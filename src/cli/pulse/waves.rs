@@ -6,11 +6,12 @@ use crate::cli::traces::{End, Focus};
 use crate::cli::waves_of::{Ending, System};
 use motion_rtl::circuits::pulse_interpolator::group::In;
 use motion_rtl::circuits::pulse_interpolator::{AXIS_NAMES, Conventional, Group};
-use motion_rtl::hdl::{Circuit, Model, Observer, RunError, Value, model, model_beside};
+use motion_rtl::hdl::{Circuit, Value};
 use motion_rtl::jobs::pulse_interpolator::beside::{device, play};
 use motion_rtl::jobs::pulse_interpolator::job::group;
 use motion_rtl::jobs::pulse_interpolator::motors::{Motors, StepMotors};
 use motion_rtl::jobs::pulse_interpolator::{ControlComputer, Table};
+use motion_rtl::sim::{Elaborated, Observer, RunError};
 use std::collections::BTreeMap;
 
 /// Unit times of the conventional device that the save file's window shows.
@@ -61,10 +62,10 @@ pub fn shown<C: Circuit>(
     circuit: &C,
     axes: usize,
     motors: Option<&Motors>,
-) -> Result<Model, RunError> {
+) -> Result<Elaborated, RunError> {
     Ok(match motors {
-        None => model(circuit),
-        Some(_) => model_beside(circuit, &StepMotors { axes }),
+        None => Elaborated::new(circuit),
+        Some(_) => Elaborated::with_beside(circuit, &StepMotors { axes }),
     }?)
 }
 

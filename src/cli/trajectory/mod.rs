@@ -20,13 +20,13 @@ use super::waves_of::{Ending, System};
 use super::{Failure, threads};
 use motion_rtl::circuits::trajectory_controller::TrajectoryController;
 use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
-use motion_rtl::hdl::{Observer, RunError, model_beside};
+use motion_rtl::jobs::JobError;
 use motion_rtl::jobs::trajectory_controller::job::{Period, Played, controller, play_each};
 use motion_rtl::jobs::trajectory_controller::program::Program;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
 use motion_rtl::plant::TwoMassAxis;
 use motion_rtl::plant::waves::Machine;
-use motion_rtl::settings::JobError;
+use motion_rtl::sim::{Elaborated, Observer, RunError};
 use picture::draw;
 use runs::{FULL_FEED, IN_MOTION, Run, Runs, UnderWay};
 use std::thread;
@@ -85,7 +85,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let machine = Machine { axes: job.axes() };
     let stage = Stage {
         circuit: &circuit,
-        model: &model_beside(&circuit, &machine).map_err(RunError::from)?,
+        model: &Elaborated::with_beside(&circuit, &machine).map_err(RunError::from)?,
         subject,
         work: Work {
             ticks,
@@ -218,8 +218,8 @@ fn system<'a>(
 ) -> System<'a> {
     System::new(name, job.ticks_at_least(), move || {
         let circuit = controller(job.axes(), correction, job.settings.rounding);
-        let model =
-            model_beside(&circuit, &Machine { axes: job.axes() }).map_err(RunError::from)?;
+        let model = Elaborated::with_beside(&circuit, &Machine { axes: job.axes() })
+            .map_err(RunError::from)?;
         let plants = plants(job)?;
         let run = move |circuit: &TrajectoryController,
                         observer: &mut dyn Observer<TrajectoryController>| {

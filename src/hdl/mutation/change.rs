@@ -1,11 +1,11 @@
 //! Insertion of a fault into a module.
 
 use super::{Change, Mutation, Place, find};
-use crate::hdl::build::{Builder, masked};
-use crate::hdl::elaborate::Nets;
-use crate::hdl::netlist::{Id, Module, Node, Operator, Port};
-use crate::hdl::record::{BIT, Site};
-use crate::hdl::{Kind, Role, Shape};
+use crate::hdl::{
+    build::{Builder, masked},
+    elaborate::Nets,
+};
+use crate::netlist::{BIT, Id, Kind, Module, Node, Operator, Port, Role, Shape, Site};
 
 /// Inserts the fault; returns false if it has no place in this module.
 pub(super) fn put(

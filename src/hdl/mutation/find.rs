@@ -1,10 +1,11 @@
 //! Search for the possible faults of a module.
 
 use super::{Change, Mutation, Place};
-use crate::hdl::build::{Builder, Instance};
-use crate::hdl::elaborate::Nets;
-use crate::hdl::netlist::{Id, Module, Node, Operator, Port, Register, live};
-use crate::hdl::{Kind, Role};
+use crate::hdl::{
+    build::{Builder, Instance},
+    elaborate::Nets,
+};
+use crate::netlist::{Id, Kind, Module, Node, Operator, Port, Register, Role, live};
 use std::collections::HashMap;
 
 /// Returns all faults of a module.

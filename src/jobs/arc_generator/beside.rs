@@ -9,9 +9,9 @@ use crate::circuits::arc_generator::axis_terms::AXIS_WORD;
 use crate::circuits::arc_generator::vector_row::VECTOR_WORD;
 use crate::circuits::arc_generator::{Conventional, Widths};
 use crate::circuits::blocks::record_memory::ARC;
-use crate::hdl::{Observer, RunError};
 use crate::path::record::{Record, WORDS, coordinate_word};
 use crate::path::vector::scale;
+use crate::sim::{Observer, RunError};
 use std::f64::consts::TAU;
 
 /// Returns the records of an arc: start, ramp, constant speed, ramp; without ramps two. Returns

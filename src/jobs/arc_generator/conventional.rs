@@ -7,10 +7,10 @@
 use super::prepare::Timing;
 use crate::circuits::arc_generator::{Blend, BlendPoint, Widths};
 use crate::engine::EngineError;
-use crate::hdl;
 use crate::input::Point;
 use crate::path::circle::Circle;
 use crate::path::vector::{Matrix, sub};
+use crate::sim::Elaborated;
 use std::ops::{Add, AddAssign};
 
 /// Operations on floating-point numbers or words.
@@ -248,7 +248,7 @@ pub fn blend(terms: &[Point; 3], h: f64) -> (Point, Operations) {
 pub fn difference_engines() -> Result<Operations, EngineError> {
     let mut operations = Operations::default();
     for coordinate in 0..3 {
-        let model = hdl::model(&Widths::FULL.engine(coordinate))?;
+        let model = Elaborated::new(&Widths::FULL.engine(coordinate))?;
         operations.additions += model.cost().adders;
     }
     Ok(operations)
@@ -262,7 +262,7 @@ pub fn difference_engines() -> Result<Operations, EngineError> {
 /// Returns an error if the circuit cannot be elaborated.
 pub fn products() -> Result<Operations, EngineError> {
     let widths = Blend::Products.widths(Widths::FULL);
-    let share = hdl::model(&BlendPoint { widths }.share())?;
+    let share = Elaborated::new(&BlendPoint { widths }.share())?;
     Ok(Operations {
         multiplications: 2 + 3 * 2,
         additions: 1 + 3 * 2 + share.cost().adders,

@@ -6,10 +6,11 @@ use super::settings::Settings;
 use crate::circuits::arc_generator::{ArcGenerator, generator};
 use crate::circuits::blocks::record_memory::ARC;
 use crate::circuits::blocks::record_sequencer::{self, FETCH, READY};
-use crate::hdl::{At, Circuit, Observer, Place, RunError, Sample, Simulator, Value, Watcher};
+use crate::hdl::{At, Circuit, Place, Value};
 use crate::input::COORDINATES;
+use crate::jobs::record_writer::RecordWriter;
 use crate::path::record::Record;
-use crate::path::record_writer::RecordWriter;
+use crate::sim::{Observer, RunError, Sample, Simulator, Watcher};
 
 /// Number of records that wait before the path begins, if the path has that many: the memory is
 /// full then.

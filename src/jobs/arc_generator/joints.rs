@@ -1,10 +1,11 @@
 //! Conversion of a path's commands to those of an arm's joints: step 12 of Fig. 5, which follows
 //! the generator on the control computer.
 
-use crate::hdl::{Beside, Value, View, signals};
+use crate::hdl::{Value, View, signals};
 use crate::input::{COORDINATES, Point};
 use crate::path::arm::{Arm, JOINTS, Pose};
 use crate::path::vector::distance;
+use crate::sim::Beside;
 
 signals! { for Joints as _c;
     /// Commanded joints of an arm.

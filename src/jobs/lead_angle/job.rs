@@ -5,10 +5,11 @@ use super::sensor::{Sensor, carrier};
 use super::settings::{Completion, SPEED_UNIT_COUNTS_PER_S, Settings, TimeSource};
 use crate::circuits::lead_angle::compensator::In;
 use crate::circuits::lead_angle::{Compensator, Variant, Widths};
-use crate::hdl::{At, Image, Observer, Sample, Simulator, Value, Watcher};
+use crate::hdl::{At, Image, Value};
+use crate::jobs::JobError;
 use crate::plant::waves::{Body, BodySignals};
 use crate::plant::{BrakedBody, Operation};
-use crate::settings::JobError;
+use crate::sim::{Observer, Sample, Simulator, Watcher};
 
 /// Widths of the jobs' compensator.
 pub(super) const WIDTHS: Widths = Widths::FULL;

@@ -5,11 +5,13 @@ use super::computer::{ControlComputer, word};
 use super::sensor::{Sensor, carrier};
 use super::settings::{Action, LeadBy, Settings, Targets};
 use crate::circuits::lead_angle::Compensator;
-use crate::hdl::{At, Observer, Sample, Simulator, Watcher};
+use crate::hdl::At;
 use crate::input::position_log::PositionLog;
+use crate::jobs::JobError;
 use crate::plant::waves::{Body, BodySignals};
 use crate::plant::{Encoder, Operation};
-use crate::settings::{JobError, SettingError};
+use crate::settings::SettingError;
+use crate::sim::{Observer, Sample, Simulator, Watcher};
 
 /// Control signal caused by the log.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,8 +4,9 @@ use super::job::{Ports, WIDTHS};
 use super::settings::{Detector, Settings};
 use crate::circuits::lead_angle::Compensator;
 use crate::circuits::lead_angle::detector::DetectorPart;
-use crate::hdl::{At, Watcher};
+use crate::hdl::At;
 use crate::plant::{AbsoluteEncoder, PhaseShiftTransducer, Resolver};
+use crate::sim::Watcher;
 
 /// Sensor of a detector that outputs positions.
 #[derive(Debug)]

@@ -9,9 +9,10 @@ use crate::circuits::linear_interpolator::command_source::Orders;
 use crate::circuits::linear_interpolator::{
     CommandSource, Controller, Conventional, LinearInterpolator, MasterAxis, Widths, controller,
 };
-use crate::hdl::{At, Observer, Sample, Simulator, Value, Watcher, zero};
+use crate::hdl::{At, Value, zero};
+use crate::jobs::JobError;
 use crate::plant::{Ahead, ServoAxis, ServoParameters, waves};
-use crate::settings::JobError;
+use crate::sim::{Observer, Sample, Simulator, Watcher};
 use fixed::types::U8F8;
 
 /// Full scale of the 16-bit D/A converters.

@@ -12,12 +12,13 @@ use crate::circuits::machine::circuit::In;
 use crate::circuits::machine::{Machine, enables, ports};
 use crate::circuits::trajectory_controller::Widths;
 use crate::circuits::trajectory_controller::model_state::ModelGains;
-use crate::hdl::{At, Sample, State, Value, Watcher, zero};
+use crate::hdl::{At, Value, zero};
 use crate::jobs::lead_angle::settings::{self as lead_angle, SPEED_UNIT_COUNTS_PER_S};
 use crate::jobs::pulse_interpolator::ControlComputer;
+use crate::jobs::record_writer::RecordWriter;
 use crate::jobs::trajectory_controller::path_writer::PathWriter;
 use crate::jobs::trajectory_controller::servo_gains::ServoGains;
-use crate::path::record_writer::RecordWriter;
+use crate::sim::{Sample, State, Watcher};
 
 /// Number of ticks from the beginning of a move in which no part reports busy yet.
 const DEAF: u32 = 8;

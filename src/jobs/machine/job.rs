@@ -8,9 +8,10 @@ use super::surroundings::{Bodies, Drives, Surroundings};
 use super::waves::Plants;
 use crate::circuits::lead_angle;
 use crate::circuits::machine::Machine;
-use crate::hdl::{At, Image, Observer, Sample, Simulator};
+use crate::hdl::{At, Image};
+use crate::jobs::JobError;
 use crate::jobs::trajectory_controller::job::patience;
-use crate::settings::JobError;
+use crate::sim::{Observer, Sample, Simulator};
 use std::array::from_fn;
 
 #[must_use]

@@ -1,7 +1,8 @@
 //! Nets and registers of the machine that a job observes.
 
 use crate::circuits::machine::Machine;
-use crate::hdl::{At, Sample, Watcher};
+use crate::hdl::At;
+use crate::sim::{Sample, Watcher};
 use std::array::from_fn;
 
 /// Signals of the machine that a job observes.

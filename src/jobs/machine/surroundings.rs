@@ -4,12 +4,13 @@ use super::settings::Settings;
 use super::waves::Signals;
 use crate::circuits::machine::Machine;
 use crate::circuits::machine::circuit::In;
-use crate::hdl::{At, State, Value, Watcher};
+use crate::hdl::{At, Value};
 use crate::jobs::lead_angle::settings::SPEED_UNIT_COUNTS_PER_S;
 use crate::jobs::pulse_interpolator::StepTiming;
 use crate::jobs::pulse_interpolator::step_dir::Driver;
 use crate::plant::{Ahead, BrakedBody, Plant, Plants, TwoMassAxis};
 use crate::settings::SettingError;
+use crate::sim::{State, Watcher};
 use std::array::from_fn;
 
 /// Signals that drive the plants.

@@ -1,9 +1,10 @@
 //! Signals of the plants in the machine's waves.
 
-use crate::hdl::{Beside, Value, View, signals};
+use crate::hdl::{Value, View, signals};
 use crate::jobs::pulse_interpolator::step_dir::Driver;
 use crate::plant::waves::{Body, BodySignals, Machine, TwoMassSignals};
 use crate::plant::{BrakedBody, TwoMassAxis};
+use crate::sim::Beside;
 
 /// The servos.
 const SERVOS: Machine = Machine { axes: 2 };

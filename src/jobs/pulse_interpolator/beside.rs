@@ -13,9 +13,10 @@ use super::table::{StepTiming, Table, UnitDemand};
 use crate::circuits::pulse_interpolator::circular_interpolator::ArcMove;
 use crate::circuits::pulse_interpolator::motor_controller::{ConventionalWidths, Move};
 use crate::circuits::pulse_interpolator::{Conventional, Variant, conventional};
-use crate::hdl::{At, Observer, RunError, Sample, Simulator, Value, Watcher, zero};
+use crate::hdl::{At, Value, zero};
 use crate::input::COORDINATES;
-use crate::settings::JobError;
+use crate::jobs::JobError;
+use crate::sim::{Observer, RunError, Sample, Simulator, Watcher};
 
 /// Move of the device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,7 +4,8 @@ use super::Stored;
 use super::job::{Drivers, Played};
 use crate::circuits::pulse_interpolator::Groups;
 use crate::circuits::pulse_interpolator::groups::In;
-use crate::hdl::{At, Observer, RunError, Sample, Simulator, State, Watcher, zero};
+use crate::hdl::{At, zero};
+use crate::sim::{Observer, RunError, Sample, Simulator, State, Watcher};
 use std::ops::ControlFlow;
 
 /// Patterns and commands of a group.

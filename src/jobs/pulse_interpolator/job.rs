@@ -8,8 +8,10 @@ use super::step_dir::TimingMinima;
 use super::{ControlComputer, Table};
 use crate::circuits::pulse_interpolator::group::In;
 use crate::circuits::pulse_interpolator::{Group, Variant, Widths};
-use crate::hdl::{At, Observer, RunError, Sample, Simulator, State, Value, Watcher, zero};
-use crate::settings::{JobError, SettingError, within};
+use crate::hdl::{At, Value, zero};
+use crate::jobs::JobError;
+use crate::settings::{SettingError, within};
+use crate::sim::{Observer, RunError, Sample, Simulator, State, Watcher};
 use std::ops::ControlFlow;
 
 /// Result at the drivers of a group that played a table.

@@ -1,10 +1,11 @@
 //! Step motors on the drivers of a group, in the waves beside it.
 
 use crate::circuits::pulse_interpolator::AXIS_NAMES;
-use crate::hdl::{Beside, Value, View, signals};
+use crate::hdl::{Value, View, signals};
 use crate::plant::waves::fine;
 use crate::plant::{StepMotor, StepMotorParameters};
 use crate::settings::SettingError;
+use crate::sim::Beside;
 
 signals! { for StepMotors as _c;
     /// True motion of a step motor.

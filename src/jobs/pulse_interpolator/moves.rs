@@ -11,9 +11,9 @@ use crate::circuits::blocks::{Cordic, cordic};
 use crate::circuits::pulse_interpolator::circular_interpolator::GUARD;
 use crate::circuits::pulse_interpolator::motor_controller::ConventionalWidths;
 use crate::circuits::pulse_interpolator::{CircularInterpolator, Conventional};
-use crate::hdl::{RunError, Simulator};
 use crate::input::{COORDINATES, Course, Drawing, Move, Point};
 use crate::plan::FEED_RANGE;
+use crate::sim::{RunError, Simulator};
 use std::array::from_fn;
 use std::f64::consts::TAU;
 

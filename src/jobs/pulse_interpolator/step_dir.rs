@@ -4,7 +4,7 @@
 
 use super::StepTiming;
 use crate::circuits::pulse_interpolator::{AXIS_NAMES, Group};
-use crate::hdl::{Observer, RunError, Sample};
+use crate::sim::{Observer, RunError, Sample};
 use std::ops::ControlFlow;
 
 /// Least times so far, in ticks; `None` if there was no such pair of edges.

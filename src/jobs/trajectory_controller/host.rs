@@ -10,7 +10,7 @@ use crate::circuits::trajectory_controller::model_state::ModelGains;
 use crate::circuits::trajectory_controller::path_point::AXES;
 use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::hdl::{Value, zero};
-use crate::path::record_writer::RecordWriter;
+use crate::jobs::record_writer::RecordWriter;
 
 /// Number of profile records that wait before the path begins, if the profile has that many.
 const HEAD_START: usize = 16;

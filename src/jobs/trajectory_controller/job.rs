@@ -7,10 +7,12 @@ pub use super::program::{Program, ProgramError};
 use super::settings::Correction;
 use crate::circuits::trajectory_controller::path_point::AXES;
 use crate::circuits::trajectory_controller::{Rounding, TrajectoryController, Widths};
-use crate::hdl::{At, Observer, Sample, Simulator, Watcher};
+use crate::hdl::At;
+use crate::jobs::JobError;
 use crate::plant::waves::{Machine, MachineSignals};
 use crate::plant::{Ahead, Plant, Plants, TwoMassAxis};
-use crate::settings::{JobError, SettingError};
+use crate::settings::SettingError;
+use crate::sim::{Observer, Sample, Simulator, Watcher};
 use std::array::from_fn;
 
 /// Returns the controller for a job on `axes` axes.

@@ -1,7 +1,9 @@
 use super::{Cell, Chart, ChartError, Problem, Row};
 use crate::engine::{EngineError, Watch};
-use crate::hdl::{Declaration, Described, Format, LeafView as View, Model, RunError};
+use crate::hdl::Declaration;
+use crate::netlist::Format;
 use crate::settings::Pair;
+use crate::sim::{Described, Elaborated, LeafView as View, RunError};
 use crate::trace::Options;
 use crate::trace::record::{Record, near};
 use crate::trace::value::{read, show};
@@ -21,7 +23,7 @@ pub enum ChartFailure {
     Engine(#[from] EngineError),
 }
 
-crate::hdl::debug_as_display!(ChartFailure);
+crate::netlist::debug_as_display!(ChartFailure);
 
 /// First cell, by tick, in which a circuit differs from its chart.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -72,7 +74,7 @@ impl Chart {
     ///
     /// # Errors
     /// Returns the errors of [`run`](Self::run).
-    pub fn run_on(&self, circuit: &Model) -> Result<(), ChartFailure> {
+    pub fn run_on(&self, circuit: &Elaborated) -> Result<(), ChartFailure> {
         if self.circuit != circuit.name() {
             let problem = Problem::Circuit {
                 chart: self.circuit.clone(),
@@ -113,7 +115,7 @@ impl Chart {
 
     fn record(
         &self,
-        circuit: &Model,
+        circuit: &Elaborated,
         ports: &[Declaration],
         inputs: &[Resolved<'_>],
     ) -> Result<Record, ChartError> {

@@ -1,7 +1,7 @@
 //! Header of the file, scopes and names, widths.
 
 use super::varint::unsigned;
-use crate::hdl::{Format, Role};
+use crate::netlist::{Format, Role};
 use crate::trace::Clock;
 use crate::trace::layout::{CLK, Layout, Scope, companion};
 

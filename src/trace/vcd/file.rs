@@ -1,6 +1,6 @@
 use super::header::header;
 use super::text::{Signals, Text};
-use crate::hdl::Format as Shown;
+use crate::netlist::Format as Shown;
 use crate::trace::Clock;
 use crate::trace::behind::Sink;
 use crate::trace::dump::Format;

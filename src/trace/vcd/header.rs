@@ -1,7 +1,7 @@
 //! Declarations at the head of a dump.
 
 use super::file::CLK_CODE;
-use crate::hdl::Role;
+use crate::netlist::Role;
 use crate::trace::Clock;
 use crate::trace::PORTS_OUT;
 use crate::trace::layout::{CLK, Layout, Scope, companion};

@@ -4,7 +4,7 @@ use motion_rtl::check::{Law, sweep};
 use motion_rtl::circuits::trajectory_controller::error_feedback::FeedbackWidths;
 use motion_rtl::circuits::trajectory_controller::feedback_sweep::{In as Case, Net as Fed};
 use motion_rtl::circuits::trajectory_controller::{ErrorFeedback, FeedbackSweep};
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 
 fn feedback(count: usize) -> FeedbackSweep {
     let widths = FeedbackWidths {

@@ -3,7 +3,7 @@
 use motion_rtl::check::{Law, cases, sweep};
 use motion_rtl::circuits::linear_interpolator::line_sweep::{In as Line, Net as Reached};
 use motion_rtl::circuits::linear_interpolator::{Integrator, LineSweep, Rule};
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 
 fn line(position: usize, rule: Rule) -> LineSweep {
     LineSweep::new(Integrator { position, rule })

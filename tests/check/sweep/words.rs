@@ -3,7 +3,7 @@
 
 use crate::words::{List, Numbers, Operation, Words, signed, unsigned};
 use motion_rtl::check::{Law, sweep};
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 
 /// Does some things with two words; results have 16 bits.
 #[derive(Debug, Clone)]

@@ -1,7 +1,7 @@
 //! Memories against vectors.
 
 use motion_rtl::check::Random;
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 use std::collections::VecDeque;
 
 fn image(address: usize, width: usize) {

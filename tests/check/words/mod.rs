@@ -7,7 +7,7 @@ pub mod signed;
 pub mod unsigned;
 
 use motion_rtl::check::all;
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 use std::fmt;
 use std::sync::Arc;
 

@@ -7,7 +7,7 @@ use motion_rtl::circuits::arc_generator::blend_point::{self, SHARE_WORD};
 use motion_rtl::circuits::arc_generator::{
     ArcGenerator, Blend, BlendPoint, BlendWeight, Rounding, Widths, blend_weight,
 };
-use motion_rtl::hdl::{Simulator, Value, zero};
+use motion_rtl::hdl::{Value, zero};
 use motion_rtl::jobs::arc_generator::job::{Needed, play};
 use motion_rtl::jobs::arc_generator::prepare::{Timing, prepare};
 use motion_rtl::jobs::arc_generator::prepared::Prepared;
@@ -15,6 +15,7 @@ use motion_rtl::jobs::arc_generator::products::{commands, records};
 use motion_rtl::jobs::arc_generator::settings::ShortPieces;
 use motion_rtl::path::circle::Circle;
 use motion_rtl::path::pieces::{Course, Piece};
+use motion_rtl::sim::Simulator;
 
 const FULL: Widths = Blend::Products.widths(Widths::FULL);
 

@@ -11,7 +11,7 @@ use motion_rtl::circuits::arc_generator::{
 };
 use motion_rtl::circuits::blocks::RecordWrite;
 use motion_rtl::circuits::blocks::cordic_state::GAIN;
-use motion_rtl::hdl::{Simulator, zero};
+use motion_rtl::hdl::zero;
 use motion_rtl::jobs::arc_generator::beside::{play, records};
 use motion_rtl::jobs::arc_generator::conventional::Conventional as Method;
 use motion_rtl::jobs::arc_generator::job::Needed;
@@ -19,6 +19,7 @@ use motion_rtl::jobs::arc_generator::prepare::Timing;
 use motion_rtl::jobs::arc_generator::settings::ShortPieces;
 use motion_rtl::path::circle::Circle;
 use motion_rtl::path::record::Record;
+use motion_rtl::sim::Simulator;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

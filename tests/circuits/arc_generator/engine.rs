@@ -4,7 +4,8 @@ use super::program::differences;
 use motion_rtl::circuits::blocks::difference_column::Widths;
 use motion_rtl::circuits::blocks::difference_engine::In;
 use motion_rtl::circuits::blocks::{DifferenceEngine, RecordWord};
-use motion_rtl::hdl::{Cut, Simulator, zero};
+use motion_rtl::hdl::{Cut, zero};
+use motion_rtl::sim::Simulator;
 use proptest::prelude::*;
 
 const SMALL: Widths = Widths {

@@ -3,7 +3,8 @@
 use motion_rtl::circuits::arc_generator::ArcGenerator;
 use motion_rtl::circuits::arc_generator::generator::{In, Segments};
 use motion_rtl::circuits::blocks::RecordWrite;
-use motion_rtl::hdl::{Cut, Simulator};
+use motion_rtl::hdl::Cut;
+use motion_rtl::sim::Simulator;
 
 /// Words that are not 0: from rest to 64 counts, on to 128, to rest at 192.
 const RECORDS: [&[(usize, i64)]; 3] = [

@@ -4,7 +4,8 @@ use super::below;
 use motion_rtl::check::Random;
 use motion_rtl::circuits::blocks::record_memory::{In, RECORD};
 use motion_rtl::circuits::blocks::{RecordMemory, RecordWrite};
-use motion_rtl::hdl::{Cut, Simulator, Value};
+use motion_rtl::hdl::{Cut, Value};
+use motion_rtl::sim::Simulator;
 use std::collections::VecDeque;
 
 /// A memory as a queue of records; what goes out is told by the tick of each word.

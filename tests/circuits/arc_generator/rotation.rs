@@ -4,7 +4,8 @@ use super::program::{rotated, wrap};
 use motion_rtl::circuits::arc_generator::rotation::In;
 use motion_rtl::circuits::arc_generator::{Rotation, Rounding, Widths};
 use motion_rtl::circuits::blocks::RecordWord;
-use motion_rtl::hdl::{Cut, Simulator, Value};
+use motion_rtl::hdl::{Cut, Value};
+use motion_rtl::sim::Simulator;
 use proptest::prelude::*;
 
 /// Ports in with a word that is loaded.

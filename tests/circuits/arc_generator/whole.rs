@@ -6,7 +6,8 @@ use super::program::{differences, rotated, wrap};
 use motion_rtl::check::Random;
 use motion_rtl::circuits::arc_generator::generator::In;
 use motion_rtl::circuits::arc_generator::{ArcGenerator, Blend, Rounding};
-use motion_rtl::hdl::{Cut, Simulator, Value, zero};
+use motion_rtl::hdl::{Cut, Value, zero};
+use motion_rtl::sim::Simulator;
 
 const FULL: ArcGenerator = ArcGenerator::new(Rounding::Nearest, Blend::Differences);
 const GUARD: u32 = 16;

@@ -5,11 +5,12 @@ use motion_rtl::check::Random;
 use motion_rtl::circuits::pulse_interpolator::group::{Group, In};
 use motion_rtl::circuits::pulse_interpolator::pattern_memory::WritePort;
 use motion_rtl::circuits::pulse_interpolator::{Pattern, Variant, Widths};
-use motion_rtl::hdl::{Observer, RunError, Sample, Simulator, Value, zero};
+use motion_rtl::hdl::{Value, zero};
 use motion_rtl::input::{Drawing, read_text};
 use motion_rtl::jobs::pulse_interpolator::job::{fast_forward, group, play};
 use motion_rtl::jobs::pulse_interpolator::{Settings, compile};
 use motion_rtl::scenario::{Loaded, Scenario};
+use motion_rtl::sim::{Observer, RunError, Sample, Simulator};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
 

@@ -4,7 +4,8 @@ use super::jobs::{self, Clock, Job};
 use super::ours::word;
 use super::registers;
 use super::stimulus::Replay;
-use motion_rtl::hdl::{Circuit, Observer, RunError, Sample, Simulator};
+use motion_rtl::hdl::Circuit;
+use motion_rtl::sim::{Observer, RunError, Sample, Simulator};
 use std::ops::ControlFlow;
 
 /// A word of the ports out for every tick; where a tick is not seen they are held.

@@ -16,7 +16,9 @@ mod theirs {
     pub const ROTATION: u32 = 7;
 }
 
-use motion_rtl::hdl::{Circuit, Declarations, Role, Simulator};
+use motion_rtl::hdl::{Circuit, Declarations};
+use motion_rtl::netlist::Role;
+use motion_rtl::sim::Simulator;
 
 /// All registers, words of memories among them.
 fn registers<C: Circuit>(simulator: &Simulator<C>) -> Vec<u64> {

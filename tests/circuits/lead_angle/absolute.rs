@@ -3,7 +3,7 @@
 use super::below;
 use motion_rtl::check::Random;
 use motion_rtl::circuits::lead_angle::AbsoluteDetector;
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 
 const TURN: i64 = 90_000;
 const CODE: usize = 17;

@@ -2,7 +2,8 @@
 
 use motion_rtl::circuits::lead_angle::comparator::In;
 use motion_rtl::circuits::lead_angle::{Comparator, Comparing};
-use motion_rtl::hdl::{Cut, Sample, Simulator, Value};
+use motion_rtl::hdl::{Cut, Value};
+use motion_rtl::sim::{Sample, Simulator};
 
 const RANGE: i64 = 16;
 

@@ -4,7 +4,8 @@ use super::below;
 use motion_rtl::check::{Invariants, Lockstep, Outcome, Pair, PairIn, Random, reach};
 use motion_rtl::circuits::lead_angle::position_history::{self, In};
 use motion_rtl::circuits::lead_angle::{PositionHistory, RamHistory};
-use motion_rtl::hdl::{Circuit, Place, Signals, Simulator, State, Value};
+use motion_rtl::hdl::{Circuit, Place, Signals, Value};
+use motion_rtl::sim::{Simulator, State};
 
 /// Runs a history over `samples` random samples with the tap `tap`, restarted after `start` of
 /// them, a CK every few ticks, against the list of all samples.

@@ -3,7 +3,7 @@
 use motion_rtl::circuits::lead_angle::codes;
 use motion_rtl::circuits::lead_angle::correction::In;
 use motion_rtl::circuits::lead_angle::{Correction, Division, Function, Sign};
-use motion_rtl::hdl::Simulator;
+use motion_rtl::sim::Simulator;
 
 /// Result of a correction.
 #[derive(Debug, Clone, Copy)]

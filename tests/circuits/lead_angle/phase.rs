@@ -2,8 +2,8 @@
 //! signal.
 
 use motion_rtl::circuits::lead_angle::PhaseDetector;
-use motion_rtl::hdl::prelude::*;
 use motion_rtl::plant::PhaseShiftTransducer;
+use motion_rtl::prelude::*;
 
 /// A sample of the detector.
 #[derive(Debug, Clone, Copy, PartialEq)]

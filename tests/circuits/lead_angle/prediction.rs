@@ -4,7 +4,8 @@ use motion_rtl::circuits::lead_angle::codes;
 use motion_rtl::circuits::lead_angle::{
     Division, Lead, LeadPlacement, Memory, Placement, TimeLead, lead, placement, time_lead,
 };
-use motion_rtl::hdl::{Cut, Simulator, Value};
+use motion_rtl::hdl::{Cut, Value};
+use motion_rtl::sim::Simulator;
 use proptest::prelude::*;
 use std::collections::HashSet;
 

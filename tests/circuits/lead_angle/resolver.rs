@@ -4,8 +4,8 @@
 use motion_rtl::circuits::lead_angle::{
     ResolverDetector, TrackingConverter, TrackingLoop, tracking_converter,
 };
-use motion_rtl::hdl::prelude::*;
 use motion_rtl::plant::{Resolver, ResolverParameters};
+use motion_rtl::prelude::*;
 use std::f64::consts::TAU;
 
 /// The detector as it is built.

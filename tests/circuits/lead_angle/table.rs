@@ -3,7 +3,7 @@
 use super::below;
 use motion_rtl::check::Random;
 use motion_rtl::circuits::lead_angle::{LeadTable, SpeedLead, TableLead, speed_lead, table_lead};
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 
 fn filled(lead: impl Fn(i64) -> i64) -> TableLead {
     TableLead {

@@ -1,7 +1,7 @@
 //! The unwrapper for every pair of places of every modulus of four bits.
 
 use motion_rtl::circuits::lead_angle::Unwrapper;
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 
 /// The shorter way from one place to another. At half the modulus both are as long: the one that does
 /// not pass place 0 counts.

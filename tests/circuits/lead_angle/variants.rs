@@ -6,7 +6,7 @@ use motion_rtl::check::Random;
 use motion_rtl::circuits::lead_angle::{
     Division, Form, Memory, RatioLogic, TimeLead, codes, ratio_logic, time_lead,
 };
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 use motion_rtl::registry::{ProofSearch, Verdict, find};
 
 #[test]

@@ -7,7 +7,8 @@ use motion_rtl::circuits::lead_angle::compensator::In;
 use motion_rtl::circuits::lead_angle::{
     Compensator, Division, LeadForm, LeadFrom, Memory, Placement, Variant, Widths,
 };
-use motion_rtl::hdl::{Image, Observer, Simulator, State, Value};
+use motion_rtl::hdl::{Image, Value};
+use motion_rtl::sim::{Observer, Simulator, State};
 
 /// Outputs by which runs are compared.
 const OUTPUTS: [&str; 12] = [

@@ -5,7 +5,8 @@ use motion_rtl::circuits::linear_interpolator::command_source::Orders;
 use motion_rtl::circuits::linear_interpolator::interpolator::In;
 use motion_rtl::circuits::linear_interpolator::target_data::Settings;
 use motion_rtl::circuits::linear_interpolator::{LinearInterpolator, MasterAxis, Rule, Widths};
-use motion_rtl::hdl::{Simulator, Value};
+use motion_rtl::hdl::Value;
+use motion_rtl::sim::Simulator;
 
 const WORDS: std::ops::Range<i64> = -16..16;
 const SCAN: u64 = small(Rule::Floor, MasterAxis::Longer).latency();

@@ -4,7 +4,7 @@
 
 use motion_rtl::circuits::linear_interpolator::integrator::In;
 use motion_rtl::circuits::linear_interpolator::{Integrator, Rule};
-use motion_rtl::hdl::{Simulator, State};
+use motion_rtl::sim::{Simulator, State};
 use std::collections::HashSet;
 
 const P: usize = 5;

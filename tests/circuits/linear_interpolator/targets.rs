@@ -2,7 +2,7 @@
 
 use motion_rtl::circuits::linear_interpolator::target_data::{In, Settings};
 use motion_rtl::circuits::linear_interpolator::{TargetData, Widths};
-use motion_rtl::hdl::Simulator;
+use motion_rtl::sim::Simulator;
 use proptest::prelude::*;
 use std::collections::VecDeque;
 

@@ -2,7 +2,7 @@
 
 use super::program::{Outputs, Ports, Program};
 use motion_rtl::circuits::linear_interpolator::{PatternGenerator, pattern_generator};
-use motion_rtl::hdl::Simulator;
+use motion_rtl::sim::Simulator;
 
 /// Both, fed with the same ports; they are compared in every tick.
 pub struct Bench {

@@ -7,7 +7,8 @@ use motion_rtl::circuits::trajectory_controller::model_state::ModelGains;
 use motion_rtl::circuits::trajectory_controller::path_point::PathWrite;
 use motion_rtl::circuits::trajectory_controller::vector_correction::Correction;
 use motion_rtl::circuits::trajectory_controller::{Rounding, TrajectoryController, Widths};
-use motion_rtl::hdl::{At, Cut, Simulator, Value, zero};
+use motion_rtl::hdl::{At, Cut, Value, zero};
+use motion_rtl::sim::Simulator;
 
 /// Values when all points of a period are complete, in guard units.
 #[derive(Debug, Clone)]

@@ -3,7 +3,7 @@
 use motion_rtl::circuits::blocks::Cordic;
 use motion_rtl::circuits::blocks::cordic::In;
 use motion_rtl::circuits::blocks::cordic_state::GAIN;
-use motion_rtl::hdl::Simulator;
+use motion_rtl::sim::Simulator;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

@@ -4,7 +4,8 @@ use motion_rtl::circuits::trajectory_controller::error_feedback::{
     FeedbackGains, FeedbackWidths, In,
 };
 use motion_rtl::circuits::trajectory_controller::{ErrorFeedback, Widths};
-use motion_rtl::hdl::{Simulator, Value, zero};
+use motion_rtl::hdl::{Value, zero};
+use motion_rtl::sim::Simulator;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 

@@ -3,7 +3,8 @@
 use motion_rtl::circuits::trajectory_controller::model_state::{ModelGains, ModelWidths};
 use motion_rtl::circuits::trajectory_controller::reference_model::In;
 use motion_rtl::circuits::trajectory_controller::{ReferenceModel, Rounding};
-use motion_rtl::hdl::{Simulator, Value};
+use motion_rtl::hdl::Value;
+use motion_rtl::sim::Simulator;
 use proptest::prelude::*;
 use std::collections::HashSet;
 

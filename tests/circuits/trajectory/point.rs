@@ -5,7 +5,8 @@ use motion_rtl::circuits::trajectory_controller::path_point::{In, PathWrite};
 use motion_rtl::circuits::trajectory_controller::point_sequencer::RADIUS;
 use motion_rtl::circuits::trajectory_controller::widths::PointWidths;
 use motion_rtl::circuits::trajectory_controller::{PathPoint, Widths};
-use motion_rtl::hdl::{Simulator, Value};
+use motion_rtl::hdl::Value;
+use motion_rtl::sim::Simulator;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

@@ -3,7 +3,7 @@
 use motion_rtl::circuits::trajectory_controller::length_powers::In;
 use motion_rtl::circuits::trajectory_controller::widths::PointWidths;
 use motion_rtl::circuits::trajectory_controller::{LengthPowers, Widths};
-use motion_rtl::hdl::Simulator;
+use motion_rtl::sim::Simulator;
 
 #[test]
 fn every_length_is_raised_and_rounded_down_once_a_power() {

@@ -4,7 +4,8 @@ use motion_rtl::check::Random;
 use motion_rtl::circuits::trajectory_controller::segment_search::In;
 use motion_rtl::circuits::trajectory_controller::widths::PointWidths;
 use motion_rtl::circuits::trajectory_controller::{SegmentSearch, Widths};
-use motion_rtl::hdl::{Simulator, Value};
+use motion_rtl::hdl::Value;
+use motion_rtl::sim::Simulator;
 
 const A: usize = 4;
 

@@ -5,7 +5,8 @@ use motion_rtl::circuits::trajectory_controller::model_state::ModelGains;
 use motion_rtl::circuits::trajectory_controller::servo::In;
 use motion_rtl::circuits::trajectory_controller::servo_arithmetic::{ServoGains, ServoWidths};
 use motion_rtl::circuits::trajectory_controller::{Rounding, Servo, Widths};
-use motion_rtl::hdl::{Simulator, Value};
+use motion_rtl::hdl::Value;
+use motion_rtl::sim::Simulator;
 use proptest::prelude::*;
 
 /// State of the equations from step to step.

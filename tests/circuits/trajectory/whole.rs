@@ -7,7 +7,7 @@ use motion_rtl::circuits::blocks::cordic_state;
 use motion_rtl::circuits::trajectory_controller::controller::In;
 use motion_rtl::circuits::trajectory_controller::vector_correction::Correction;
 use motion_rtl::circuits::trajectory_controller::{ErrorFeedback, Widths, error_feedback};
-use motion_rtl::hdl::Simulator;
+use motion_rtl::sim::Simulator;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

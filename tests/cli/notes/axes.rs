@@ -3,7 +3,7 @@
 use motion_rtl::circuits::pulse_interpolator::{
     AXES_MAX, Conventional, ConventionalWidths, Group, Variant, Widths,
 };
-use motion_rtl::hdl;
+use motion_rtl::sim::Elaborated;
 use std::fmt::Write as _;
 
 /// A table of what both cost with 1 to 8 axes, counted in their netlists, and of the shortest unit
@@ -24,11 +24,11 @@ pub fn table() -> String {
             period: 1000,
             arcs: false,
         };
-        let ours = hdl::model(&group).unwrap().cost();
-        let before = hdl::model(&conventional).unwrap().cost();
+        let ours = Elaborated::new(&group).unwrap().cost();
+        let before = Elaborated::new(&conventional).unwrap().cost();
         assert_eq!(before.memory_bits, 0);
         let arcs = (axes > 1).then(|| {
-            let arcs = hdl::model(&Conventional {
+            let arcs = Elaborated::new(&Conventional {
                 arcs: true,
                 ..conventional.clone()
             });

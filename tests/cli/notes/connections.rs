@@ -1,7 +1,7 @@
 //! The tables of connections: of what parts a circuit is made, and what drives their ports in.
 
 use super::{expect_none, notes};
-use motion_rtl::hdl::{Kind, Role, Shape};
+use motion_rtl::netlist::{Kind, Role, Shape};
 use motion_rtl::registry::{CATALOGUE, Entry, find};
 use motion_rtl::verilog::{Connection, Connections, Part};
 use rayon::prelude::*;

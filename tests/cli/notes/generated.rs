@@ -5,7 +5,8 @@
 
 use super::{Note, axes, blends, connections, expect_none, miscounts, notes, rotations, states};
 use motion_rtl::circuits::pulse_interpolator::counts;
-use motion_rtl::hdl::{Declaration, Format, Kind, MemoryDeclaration, Role};
+use motion_rtl::hdl::{Declaration, MemoryDeclaration};
+use motion_rtl::netlist::{Format, Kind, Role};
 use motion_rtl::registry::{Base, CATALOGUE, Entry, Pair, ProofSearch, Verdict, find};
 use motion_rtl::scenario::Runnable;
 use motion_rtl::settings::rows;

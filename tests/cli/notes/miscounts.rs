@@ -3,7 +3,7 @@
 use motion_rtl::circuits::pulse_interpolator::counts;
 use motion_rtl::circuits::pulse_interpolator::{PulseGenerator, SyncStage, Variant};
 use motion_rtl::circuits::pulse_interpolator::{pulse_generator, sync_stage};
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 
 /// The longest unit time looked at.
 const PERIODS: u32 = 64;

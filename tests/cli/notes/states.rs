@@ -1,6 +1,6 @@
 //! Numbers that a register of states holds, from what drives it.
 
-use motion_rtl::hdl::netlist::{Id, Module, Node, Operator};
+use motion_rtl::netlist::{Id, Module, Node, Operator};
 use motion_rtl::registry::Entry;
 use std::collections::BTreeSet;
 

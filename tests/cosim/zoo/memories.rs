@@ -1,6 +1,6 @@
 //! Memories of every kind, read and written in every way.
 
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 
 /// Memories with these contents.
 #[derive(Debug, Clone)]

@@ -1,7 +1,7 @@
 //! Circuits in circuits, bundles, aliases, registers that do little.
 
 use super::memories::{self, In as BankIn, Memories};
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 
 const STATES: &[&str] = &["IDLE", "GO", "HALT"];
 const SIDES: &[&str] = &["left", "right"];

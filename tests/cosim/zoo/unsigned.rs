@@ -1,6 +1,6 @@
 //! Every operation of unsigned words and bits.
 
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 
 /// Words of `n` bits against words of `k` bits, products of `p` bits.
 #[derive(Debug, Clone)]

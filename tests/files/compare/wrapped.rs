@@ -2,7 +2,7 @@
 
 use motion_rtl::circuits::blocks::{EnableCounter, enable_counter::In};
 use motion_rtl::compare::{Settings, compare};
-use motion_rtl::hdl::Simulator;
+use motion_rtl::sim::Simulator;
 use motion_rtl::trace::{Clock, Fst, Options};
 use std::fs;
 use std::io::Cursor;

@@ -2,9 +2,10 @@
 
 use super::netlists::names;
 use motion_rtl::check::Drive;
-use motion_rtl::hdl::prelude::*;
-use motion_rtl::hdl::{Declarations, model};
+use motion_rtl::hdl::Declarations;
+use motion_rtl::prelude::*;
 use motion_rtl::registry::CATALOGUE;
+use motion_rtl::sim::Elaborated;
 use motion_rtl::trace::Clock;
 use motion_rtl::verilog::{Connection, Connections};
 use rayon::prelude::*;
@@ -112,7 +113,7 @@ fn text(connections: &Connections) -> String {
 
 #[test]
 fn drivers_are_ports_constants_choices_and_nets() {
-    let model = model(&Counts).unwrap();
+    let model = Elaborated::new(&Counts).unwrap();
     let connections = Connections::of(model.design(), &Declarations::of(&Counts));
     let expected = r#"low: count_by [("LIMIT", 9)]
   step[1] = given
@@ -140,7 +141,7 @@ edge held[4] = both ? held + 4'd1 : held
 
 #[test]
 fn a_circuit_without_parts_has_its_own_signals_only() {
-    let model = model(&LOW).unwrap();
+    let model = Elaborated::new(&LOW).unwrap();
     let connections = Connections::of(model.design(), &Declarations::of(&LOW));
     let expected = "out carry[1] = count == LIMIT\n\
                     net sum[4] = count + by\n\

@@ -1,7 +1,7 @@
 //! Circuits that are no netlist, or no Verilog.
 
 use motion_rtl::engine::EngineError;
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 use motion_rtl::verilog::Verilog;
 
 #[derive(Debug, Clone)]

@@ -1,7 +1,6 @@
 //! A netlist, run node by node.
 
-use motion_rtl::hdl::netlist::{Design, Id, Module, Node, Operator, Port, Value};
-use motion_rtl::hdl::{Kind, Role, Shape};
+use motion_rtl::netlist::{Design, Id, Kind, Module, Node, Operator, Port, Role, Shape, Value};
 
 /// A module and those inside it, with their state and the values of the tick.
 pub struct Instance<'d> {

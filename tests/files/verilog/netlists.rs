@@ -3,7 +3,7 @@
 use super::interpreter::Instance;
 use super::{circuits, flat, models};
 use motion_rtl::check::Drive;
-use motion_rtl::hdl::Role;
+use motion_rtl::netlist::Role;
 use motion_rtl::registry::{AnyModel, CATALOGUE};
 use motion_rtl::trace::Clock;
 use rayon::prelude::*;

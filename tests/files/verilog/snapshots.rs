@@ -4,7 +4,7 @@
 use expect_test::expect_file;
 use motion_rtl::circuits::blocks::EnableCounter;
 use motion_rtl::circuits::pulse_interpolator::{AddressSequencer, Axis, PatternMemory, Variant};
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 use motion_rtl::trace::Clock;
 use motion_rtl::verilog::Verilog;
 

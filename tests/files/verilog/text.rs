@@ -1,7 +1,7 @@
 //! Properties of the text of every circuit.
 
 use super::{circuits, flat};
-use motion_rtl::hdl::{Kind, Shape};
+use motion_rtl::netlist::{Kind, Shape};
 use motion_rtl::trace::Clock;
 use motion_rtl::verilog::{SourceFile, Verilog};
 use std::collections::{BTreeSet, HashMap, HashSet};

@@ -3,8 +3,8 @@
 use super::zoo::{Zoo, inputs};
 use super::{SEED, clock, dump, run_zoo};
 use motion_rtl::files::AtomicFile;
-use motion_rtl::hdl::prelude::*;
-use motion_rtl::hdl::{RunError, State};
+use motion_rtl::prelude::*;
+use motion_rtl::sim::{RunError, State};
 use motion_rtl::trace::{Options, VcdBehind};
 use std::fs;
 use std::io::{self, Write};

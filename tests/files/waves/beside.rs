@@ -2,8 +2,8 @@
 
 use super::reader;
 use motion_rtl::circuits::blocks::{EnableCounter, enable_counter::In};
-use motion_rtl::hdl::prelude::*;
-use motion_rtl::hdl::{Beside, Without, model_beside};
+use motion_rtl::prelude::*;
+use motion_rtl::sim::{Beside, Elaborated, Without};
 use motion_rtl::trace::{Clock, Options, Vcd};
 
 #[derive(Clone)]
@@ -38,7 +38,7 @@ fn they_are_those_of_the_circuit_alone() {
             .run(TICKS, |tick, _| i(tick), &mut expected)
             .unwrap();
 
-        let model = model_beside(&COUNTER, &Motor).unwrap();
+        let model = Elaborated::with_beside(&COUNTER, &Motor).unwrap();
         let mut both = Vcd::new(Vec::new(), &model, Clock::default(), &options).unwrap();
         let simulator = Simulator::watching_beside(&COUNTER, &Motor, true, |_| ());
         let (mut simulator, ()) = simulator.unwrap();

@@ -4,7 +4,7 @@ use super::reader::{self, Dump};
 use super::zoo::{Part, PartIn, Zoo, inputs};
 use super::{SEED, clock, options};
 use motion_rtl::files::AtomicFile;
-use motion_rtl::hdl::Simulator;
+use motion_rtl::sim::Simulator;
 use motion_rtl::trace::{Clock, Fst, Options, Vcd};
 use std::fs::{self, File};
 use std::io::{self, Cursor};

@@ -3,7 +3,8 @@
 use super::zoo::{Zoo, inputs, words};
 use super::{SEED, clock, fst, reader, run_zoo};
 use motion_rtl::compare::{Settings, compare};
-use motion_rtl::hdl::{Declaration, Format, Kind};
+use motion_rtl::hdl::Declaration;
+use motion_rtl::netlist::{Format, Kind};
 use motion_rtl::trace::{Options, Recorder, replay};
 use std::fs;
 use std::path::Path;

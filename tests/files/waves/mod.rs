@@ -14,7 +14,8 @@ mod text;
 mod watched;
 mod zoo;
 
-use motion_rtl::hdl::{Circuit, RunError, Simulator, Value};
+use motion_rtl::hdl::{Circuit, Value};
+use motion_rtl::sim::{RunError, Simulator};
 use motion_rtl::trace::{Clock, Options, Recorder, Vcd};
 use std::ops::Range;
 use zoo::{Zoo, inputs};

@@ -1,6 +1,6 @@
 use super::clock;
 use super::zoo::PHASES;
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 use motion_rtl::trace::{LayoutError, Options, Vcd};
 
 /// Returns why a circuit with these input ports has no waves.

@@ -1,6 +1,6 @@
 use super::zoo::{Part, Zoo, inputs, words};
 use super::{SEED, clock, reader, run_zoo};
-use motion_rtl::hdl::RunError;
+use motion_rtl::sim::RunError;
 use motion_rtl::trace::{Options, gtkw, replay};
 use std::fs;
 use std::io;

@@ -3,7 +3,9 @@
 use super::reader;
 use super::zoo::{Zoo, inputs};
 use super::{SEED, clock};
-use motion_rtl::hdl::{Declarations, Observer, Role, Simulator};
+use motion_rtl::hdl::Declarations;
+use motion_rtl::netlist::Role;
+use motion_rtl::sim::{Observer, Simulator};
 use motion_rtl::trace::{Options, Recorder, Vcd};
 
 const TICKS: u64 = 700;

@@ -1,7 +1,8 @@
 use super::zoo::{Part, PartIn};
 use super::{SEED, options, run_zoo};
 use expect_test::expect;
-use motion_rtl::hdl::{Cut, Simulator, State};
+use motion_rtl::hdl::Cut;
+use motion_rtl::sim::{Simulator, State};
 use motion_rtl::trace::{Options, RecordError, Recorder, text};
 
 fn part(ticks: u64) -> Recorder {

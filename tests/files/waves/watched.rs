@@ -2,7 +2,9 @@
 
 use super::zoo::{Zoo, inputs};
 use super::{SEED, clock, options, run_zoo};
-use motion_rtl::hdl::{Declarations, Observer, Role, RunError, Sample, Simulator};
+use motion_rtl::hdl::Declarations;
+use motion_rtl::netlist::Role;
+use motion_rtl::sim::{Observer, RunError, Sample, Simulator};
 use motion_rtl::trace::Vcd;
 use std::ops::ControlFlow;
 

@@ -1,6 +1,6 @@
 //! A circuit with every kind of leaf there is.
 
-use motion_rtl::hdl::prelude::*;
+use motion_rtl::prelude::*;
 
 pub const PHASES: &[&str] = &["IDLE", "RUN", "STOP"];
 const AXES: &[&str] = &["left", "right"];

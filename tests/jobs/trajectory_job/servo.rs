@@ -2,7 +2,7 @@
 
 use super::*;
 use motion_rtl::circuits::trajectory_controller::TrajectoryController;
-use motion_rtl::hdl::{Observer, RunError, Sample};
+use motion_rtl::sim::{Observer, RunError, Sample};
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 

@@ -2,7 +2,7 @@
 //! every start.
 
 use super::{In, QuadratureCounter};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 use proptest::prelude::*;
 
 /// Ticks from a level at the pin to the position.

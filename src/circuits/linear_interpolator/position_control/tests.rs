@@ -2,7 +2,7 @@
 //! random ones of the full width.
 
 use super::{In, LoopWidths, PositionControl};
-use crate::hdl::prelude::*;
+use crate::prelude::*;
 use proptest::prelude::*;
 
 /// Registers that a scan loads, and the nets of that tick.

@@ -12,12 +12,13 @@ use crate::cli::simulate::{Stage, with_waves};
 use crate::cli::traces::End;
 use crate::cli::waves_of::{Ending, System};
 use motion_rtl::circuits::lead_angle::Compensator;
-use motion_rtl::hdl::{Circuit, Observer, RunError, model_beside};
+use motion_rtl::hdl::Circuit;
 use motion_rtl::input::position_log::{PositionLog, UnitFrom};
 use motion_rtl::jobs::lead_angle::job::positioner;
 use motion_rtl::jobs::lead_angle::replay::{Replayed, Signal, replay, settings_for};
 use motion_rtl::jobs::lead_angle::settings::Settings;
 use motion_rtl::plant::waves::Body;
+use motion_rtl::sim::{Elaborated, Observer, RunError};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -77,7 +78,7 @@ pub fn run(setup: &Setup<'_>, job: &Job, log: &PositionLog) -> Result<(), Failur
     let circuit = positioner(&settings);
     let stage = Stage {
         circuit: &circuit,
-        model: &model_beside(&circuit, &Body).map_err(RunError::from)?,
+        model: &Elaborated::with_beside(&circuit, &Body).map_err(RunError::from)?,
         subject: &log.file,
         work: Work {
             ticks,
@@ -111,7 +112,7 @@ pub fn system<'a>(job: &'a Job, log: &'a PositionLog) -> System<'a> {
     let ticks = ticks(log, settings.clock_hz);
     System::new(Compensator::NAME, ticks, move || {
         let circuit = positioner(&settings);
-        let model = model_beside(&circuit, &Body).map_err(RunError::from)?;
+        let model = Elaborated::with_beside(&circuit, &Body).map_err(RunError::from)?;
         let run = move |circuit: &Compensator, observer: &mut dyn Observer<Compensator>| {
             let replayed = replay(circuit, &settings, log, observer)?;
             Ok(Ending {

@@ -15,7 +15,7 @@ use crate::cli::source::Source;
 use crate::cli::traces::{End, Focus};
 use crate::cli::waves_of::System;
 use motion_rtl::circuits::pulse_interpolator::{AXIS_NAMES, Groups};
-use motion_rtl::hdl::{Circuit, Observer, RunError, model};
+use motion_rtl::hdl::Circuit;
 use motion_rtl::input::Fault;
 use motion_rtl::jobs::pulse_interpolator::groups::{Member, circuit, play};
 use motion_rtl::jobs::pulse_interpolator::job::Played;
@@ -23,6 +23,7 @@ use motion_rtl::jobs::pulse_interpolator::{StepTiming, Stored, StoredError};
 use motion_rtl::picture::{Curve, Panel, Picture, Points};
 use motion_rtl::scenario::Loaded;
 use motion_rtl::scenario::pulse_interpolator::{GroupKeys, Settings};
+use motion_rtl::sim::{Elaborated, Observer, RunError};
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -206,7 +207,7 @@ fn ticks(job: &Job) -> u64 {
 pub fn systems(job: &Job) -> Vec<System<'_>> {
     let make = move || {
         let circuit = circuit(&job.members);
-        let model = model(&circuit).map_err(RunError::from)?;
+        let model = Elaborated::new(&circuit).map_err(RunError::from)?;
         let run = move |circuit: &Groups, observer: &mut dyn Observer<Groups>| {
             let played = play(circuit, &job.members, observer)?;
             let ends = played.iter().zip(AXES).flat_map(|(played, names)| {
@@ -228,7 +229,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let ticks = ticks(job);
     let stage = Stage {
         circuit: &circuit,
-        model: &model(&circuit).map_err(RunError::from)?,
+        model: &Elaborated::new(&circuit).map_err(RunError::from)?,
         subject: &job.stem,
         work: Work {
             ticks,

@@ -1,7 +1,8 @@
 //! Signals shown in the waves beside a circuit.
 
-use super::{Circuit, Observer, Record, RunError, Sample, View};
-use super::{Field, Role};
+use super::{Observer, RunError, Sample};
+use crate::hdl::{Circuit, Record, View};
+use crate::netlist::{Field, Role};
 use std::ops::ControlFlow;
 
 /// Signals that are shown in the waves beside a circuit without being part of it, such as the

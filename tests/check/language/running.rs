@@ -1,8 +1,9 @@
 //! Setting, stepping, reading and sweeping a circuit, with others beside it.
 
 use super::*;
-use crate::check::{Law, Lockstep, Pair, sweep};
-use crate::hdl::{self, At, Beside};
+use motion_rtl::check::{Law, Lockstep, Pair, sweep};
+use motion_rtl::hdl::At;
+use motion_rtl::sim::{Beside, Elaborated, Watcher};
 
 #[test]
 fn a_simulator_is_set_stepped_and_asked() {
@@ -47,10 +48,10 @@ impl Beside for Load {
 #[test]
 fn what_stands_beside_a_circuit_stands_in_its_waves() {
     let circuit = Counter { width: 4, other: 4 };
-    let watch = |watch: &hdl::Watcher<'_, Counter>| watch.at(watch.q.sum);
+    let watch = |watch: &Watcher<'_, Counter>| watch.at(watch.q.sum);
     let (mut simulator, sum): (_, At<u64>) =
         Simulator::watching_beside(&circuit, &Load, true, watch).unwrap();
-    let model = hdl::model_beside(&circuit, &Load).unwrap();
+    let model = Elaborated::with_beside(&circuit, &Load).unwrap();
     let paths: Vec<_> = model
         .declarations()
         .leaves

@@ -2,14 +2,10 @@
 
 mod run;
 
-use super::pack;
-use super::place::{At, Number, Signals};
-use super::record::Walk;
-use super::sample::Known;
-use super::view::{Place, Shapes, Value};
-use super::{Beside, Circuit, RunError, Sample, State};
+use super::sample::{Known, all_registers, read};
+use super::{Beside, Elaborated, RunError, Sample, State};
 use crate::engine::{Engine, EngineError, Watch};
-use crate::hdl::Model;
+use crate::hdl::{At, Circuit, Number, Place, Registers, Shapes, Signals, Value, Walk, pack};
 use std::cell::RefCell;
 use std::fmt;
 use std::ops::Deref;
@@ -22,7 +18,7 @@ use std::sync::Arc;
 ///
 /// ```
 /// use motion_rtl::circuits::blocks::EnableCounter;
-/// use motion_rtl::hdl::Simulator;
+/// use motion_rtl::sim::Simulator;
 ///
 /// let mut counter = Simulator::new(&EnableCounter { width: 8 })?;
 /// counter.set(|i| i.period, 4)?;
@@ -30,7 +26,7 @@ use std::sync::Arc;
 ///     assert_eq!(counter.see(|s| s.w.enable), tick % 4 == 3);
 ///     counter.step();
 /// }
-/// # Ok::<(), motion_rtl::hdl::RunError>(())
+/// # Ok::<(), motion_rtl::sim::RunError>(())
 /// ```
 pub struct Simulator<C: Circuit> {
     engine: Engine,
@@ -66,7 +62,7 @@ impl<C: Circuit> fmt::Debug for Simulator<C> {
 /// Chooses the watched signals; see [`Simulator::watching`].
 pub struct Watcher<'a, C: Circuit> {
     signals: &'a Signals<C>,
-    model: &'a Model,
+    model: &'a Elaborated,
     watched: RefCell<Vec<usize>>,
 }
 
@@ -127,7 +123,7 @@ impl<C: Circuit> Simulator<C> {
         all: bool,
         choose: impl FnOnce(&Watcher<'_, C>) -> T,
     ) -> Result<(Self, T), EngineError> {
-        let model = super::model(circuit)?;
+        let model = Elaborated::new(circuit)?;
         Ok(Self::of_model(circuit, &model, 0, all, choose))
     }
 
@@ -142,14 +138,14 @@ impl<C: Circuit> Simulator<C> {
         all: bool,
         choose: impl FnOnce(&Watcher<'_, C>) -> T,
     ) -> Result<(Self, T), EngineError> {
-        let model = super::model_beside(circuit, beside)?;
+        let model = Elaborated::with_beside(circuit, beside)?;
         let ports = pack::widths::<B, B::Signals<Shapes>>(beside).len();
         Ok(Self::of_model(circuit, &model, ports, all, choose))
     }
 
     fn of_model<T>(
         circuit: &C,
-        model: &Model,
+        model: &Elaborated,
         beside: usize,
         all: bool,
         choose: impl FnOnce(&Watcher<'_, C>) -> T,
@@ -289,7 +285,7 @@ impl<C: Circuit> Simulator<C> {
     #[inline]
     pub fn get<T: Number>(&mut self, at: At<T>) -> T {
         self.settle();
-        at.of(&self.engine)
+        read(&self.engine, at)
     }
 
     /// Returns the value of one of the [signals](Signals) in this tick, settled.
@@ -313,8 +309,8 @@ impl<C: Circuit> Simulator<C> {
     }
 
     /// Returns the registers of this tick.
-    pub fn registers(&self) -> super::Registers<C> {
-        super::sample::all_registers(&self.known.circuit, &self.engine)
+    pub fn registers(&self) -> Registers<C> {
+        all_registers(&self.known.circuit, &self.engine)
     }
 
     /// Advances to the next tick.
@@ -348,14 +344,14 @@ impl<C: Circuit> Simulator<C> {
     ///
     /// ```
     /// use motion_rtl::circuits::blocks::EnableCounter;
-    /// use motion_rtl::hdl::Simulator;
+    /// use motion_rtl::sim::Simulator;
     ///
     /// let mut counter = Simulator::new(&EnableCounter { width: 8 })?;
     /// counter.set(|i| i.period, 10)?;
     /// let enable = counter.signals().w.enable;
     /// let pulses = counter.samples(|now| now.get(enable)).take(1000).filter(|seen| *seen);
     /// assert_eq!(pulses.count(), 100);
-    /// # Ok::<(), motion_rtl::hdl::RunError>(())
+    /// # Ok::<(), motion_rtl::sim::RunError>(())
     /// ```
     pub fn samples<T>(
         &mut self,

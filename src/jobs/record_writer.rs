@@ -1,8 +1,8 @@
 //! Control computer that writes to a record memory: one word per tick, as long as there is room.
 
-use super::record::{Record, WORDS};
 use crate::circuits::blocks::RecordWrite;
 use crate::hdl::Value;
+use crate::path::record::{Record, WORDS};
 
 /// Writer of records in sequence.
 #[derive(Debug)]

@@ -1,5 +1,3 @@
-use crate::hdl::{Kind, Shape};
-
 /// Node of a module: an index into [`Module::nodes`](super::Module::nodes).
 pub type Id = usize;
 
@@ -109,9 +107,3 @@ impl Node {
         }
     }
 }
-
-/// One wire.
-pub(super) const BIT: Shape = Shape {
-    kind: Kind::Bit,
-    width: 1,
-};

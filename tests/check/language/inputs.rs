@@ -1,9 +1,9 @@
 //! Inputs that do not fit their ports are errors, however they are given.
 
 use super::*;
-use crate::engine::{InputError, Watch};
-use crate::hdl::{self, Beside, RunError};
-use crate::trace::{Clock, StimulusFile, replay};
+use motion_rtl::engine::{InputError, Watch};
+use motion_rtl::sim::{Beside, Elaborated, RunError};
+use motion_rtl::trace::{Clock, StimulusFile, replay};
 
 /// Ports in of every kind.
 #[derive(Debug, Clone)]
@@ -221,7 +221,7 @@ fn words_that_are_played_fit() {
 
 #[test]
 fn an_engine_refuses_words_and_ports() {
-    let mut engine = hdl::model(&Ports).unwrap().engine(Watch::All);
+    let mut engine = Elaborated::new(&Ports).unwrap().engine(Watch::All);
     assert_eq!(engine.ports(), 7);
     engine.input(3, 0x3f).unwrap();
     assert_eq!(

@@ -1,11 +1,21 @@
 //! Mistakes of a circuit.
 
-use super::record::Site;
 use std::fmt;
 
-/// All mistakes of a circuit, in the order in which [`elaborate`](super::elaborate()) found them.
+/// All mistakes of a circuit, in the order in which [`elaborate`](fn@crate::hdl::elaborate) found them.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Wrong(pub Vec<Mistake>);
+
+/// Source location.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Site {
+    /// File.
+    pub file: &'static str,
+    /// Line, from 1.
+    pub line: u32,
+    /// Column, from 1.
+    pub column: u32,
+}
 
 /// One mistake.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]

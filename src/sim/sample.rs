@@ -1,37 +1,18 @@
 //! Numeric view of a tick.
 
-use super::Circuit;
-use super::memory::Contents;
-use super::place::{At, Number, Signals};
+use super::Elaborated;
 use super::ports::Ports;
-use super::record::{Cells, MemoryShape, Pass, Places, Source};
-use super::view::{Kept, Value};
 use crate::engine::{Engine, Spot};
-use crate::hdl::{Field, Model, Role, Shape};
+use crate::hdl::record::Places;
+use crate::hdl::{
+    At, Cells, Circuit, Contents, Kept, MemoryShape, Number, Pass, Registers, Signals, Source,
+    Value,
+};
+use crate::netlist::{Field, Role, Shape};
 use std::cell::OnceCell;
 use std::fmt;
 use std::ops::Deref;
 use std::sync::{Arc, OnceLock};
-
-/// All signals of a circuit inside another, as numbers.
-pub struct Values<C: Circuit> {
-    /// Input ports.
-    pub i: C::In<Value>,
-    /// Registers.
-    pub q: C::Reg<Value>,
-    /// Nets.
-    pub w: C::Net<Value>,
-    /// Circuits inside.
-    pub p: C::Parts<Value>,
-}
-
-/// All registers of a circuit, as numbers.
-pub struct Registers<C: Circuit> {
-    /// Registers of the circuit itself.
-    pub q: C::Reg<Value>,
-    /// Registers of the circuits inside.
-    pub p: C::Parts<Kept>,
-}
 
 /// All signals of a circuit at one tick, settled: the values that the waves show while `clk` is
 /// high.
@@ -86,7 +67,7 @@ pub(crate) struct Known<C: Circuit> {
 }
 
 impl<C: Circuit> Known<C> {
-    pub fn of(circuit: &C, model: &Model, beside: usize) -> Self {
+    pub fn of(circuit: &C, model: &Elaborated, beside: usize) -> Self {
         Known {
             circuit: circuit.clone(),
             beside,
@@ -258,7 +239,7 @@ impl<C: Circuit> Sample<'_, C> {
     /// Returns the value at a place.
     #[inline]
     pub fn get<T: Number>(&self, at: At<T>) -> T {
-        at.of(self.engine)
+        read(self.engine, at)
     }
 
     /// Returns the value of one of the [signals](Signals): `now.see(|s| s.w.enable)`.
@@ -298,7 +279,7 @@ impl<C: Circuit> State<'_, C> {
     /// Returns the value of a register by its place.
     #[inline]
     pub fn get<T: Number>(&self, at: At<T>) -> T {
-        at.of(self.engine)
+        read(self.engine, at)
     }
 }
 
@@ -309,6 +290,12 @@ fn own_registers<C: Circuit>(circuit: &C, engine: &Engine) -> C::Reg<Value> {
 /// Returns the registers of a circuit and of those inside it.
 pub(crate) fn all_registers<C: Circuit>(circuit: &C, engine: &Engine) -> Registers<C> {
     circuit.make_kept(&mut Leaves::of(engine, Role::Register))
+}
+
+/// Returns the value at a place.
+#[inline]
+pub(super) fn read<T: Number>(engine: &Engine, at: At<T>) -> T {
+    at.number(engine.word(at.leaf()))
 }
 
 /// Source of an engine's words, in the order of a walk.
@@ -374,18 +361,6 @@ impl<C: Circuit> fmt::Debug for Sample<'_, C> {
 }
 
 impl<C: Circuit> fmt::Debug for State<'_, C> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct(C::NAME).finish_non_exhaustive()
-    }
-}
-
-impl<C: Circuit> fmt::Debug for Values<C> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct(C::NAME).finish_non_exhaustive()
-    }
-}
-
-impl<C: Circuit> fmt::Debug for Registers<C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct(C::NAME).finish_non_exhaustive()
     }

@@ -1,7 +1,8 @@
 //! Runs of many ticks.
 
 use super::Simulator;
-use crate::hdl::{Circuit, Observer, RunError, Sample, State, Value};
+use crate::hdl::{Circuit, Value};
+use crate::sim::{Observer, RunError, Sample, State};
 use std::ops::ControlFlow;
 
 impl<C: Circuit> Simulator<C> {

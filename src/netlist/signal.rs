@@ -134,6 +134,28 @@ impl Shape {
     }
 }
 
+/// One wire.
+pub const BIT: Shape = Shape {
+    kind: Kind::Bit,
+    width: 1,
+};
+
+/// Returns the shape of an unsigned word.
+pub const fn unsigned(width: usize) -> Shape {
+    Shape {
+        kind: Kind::Unsigned,
+        width,
+    }
+}
+
+/// Returns the shape of a two's complement word.
+pub const fn signed(width: usize) -> Shape {
+    Shape {
+        kind: Kind::Signed,
+        width,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,9 +1,8 @@
 //! Input ports of a circuit and their ranges.
 
-use super::model::Declare;
-use super::netlist::Design;
-use super::{Kind, Shape};
+use super::elaborated::Declare;
 use crate::engine::InputError;
+use crate::netlist::{Design, Kind, Shape};
 use std::fmt;
 
 /// Input ports of an elaborated circuit; those beside it come last.

@@ -1,6 +1,6 @@
 //! Size of a circuit, counted in its netlist.
 
-use super::Model;
+use super::Elaborated;
 use crate::engine::{Op, passes};
 
 /// Arithmetic and storage of a circuit, without dead nodes.
@@ -17,7 +17,7 @@ pub struct Cost {
     pub memory_bits: u64,
 }
 
-impl Model {
+impl Elaborated {
     /// Counts arithmetic and storage of the circuit.
     pub fn cost(&self) -> Cost {
         let flat = self.flat();

@@ -1,8 +1,8 @@
 //! Queries on modules.
 
 use super::module::{Module, Register};
-use super::node::{BIT, Id, Node};
-use crate::hdl::Shape;
+use super::node::{Id, Node};
+use super::signal::{BIT, Shape};
 
 impl Module {
     /// Returns the nodes that drive nets, registers, memories and inputs of instances.
@@ -137,4 +137,25 @@ pub(crate) fn enter(mut module: Module, modules: &mut Vec<Module>) -> usize {
     }
     modules.push(module);
     modules.len() - 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::netlist::unsigned;
+
+    #[test]
+    fn a_module_has_a_name_of_its_own() {
+        let mut modules = Vec::new();
+        for (name, width) in [("it_2", 2), ("it", 3), ("it", 4), ("it", 3)] {
+            let module = Module {
+                name: name.to_owned(),
+                nodes: vec![(Node::Constant(0), unsigned(width))],
+                ..Module::default()
+            };
+            enter(module, &mut modules);
+        }
+        let names: Vec<_> = modules.iter().map(|module| &module.name).collect();
+        assert_eq!(names, ["it_2", "it", "it_3"]);
+    }
 }

@@ -1,28 +1,33 @@
 //! Elaborated circuits.
 
+use super::Beside;
+use super::beside::scope;
 use super::ports::Ports;
-use super::{Circuit, Declarations, Role, netlist::Design};
 use crate::engine::{Engine, EngineError, Flat, Program, Watch, ports_out};
+use crate::hdl::{
+    Circuit, Declarations, Record, Shapes, Source, declarations, elaborate, with_inputs,
+};
+use crate::netlist::{Design, Role};
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
-/// Type from which a [`Model`] can be made: a circuit, or a model.
+/// Type from which an [`Elaborated`] circuit can be made: a circuit, or one that is elaborated.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no circuit",
-    note = "a `Circuit` or an elaborated `Model` is wanted, by reference: `&circuit`"
+    note = "a `Circuit` or an `Elaborated` is wanted, by reference: `&circuit`"
 )]
 pub trait Described {
     /// Elaborates the circuit.
     ///
     /// # Errors
     /// Returns all mistakes of the circuit.
-    fn described(&self) -> Result<Model, EngineError>;
+    fn described(&self) -> Result<Elaborated, EngineError>;
     /// Returns name and signals; power-on values are left at 0.
     fn outlined(&self) -> (&'static str, Declarations);
 }
 
-impl Described for Model {
-    fn described(&self) -> Result<Model, EngineError> {
+impl Described for Elaborated {
+    fn described(&self) -> Result<Elaborated, EngineError> {
         Ok(self.clone())
     }
     fn outlined(&self) -> (&'static str, Declarations) {
@@ -31,8 +36,8 @@ impl Described for Model {
 }
 
 impl<C: Circuit> Described for C {
-    fn described(&self) -> Result<Model, EngineError> {
-        super::model(self)
+    fn described(&self) -> Result<Elaborated, EngineError> {
+        Elaborated::new(self)
     }
     fn outlined(&self) -> (&'static str, Declarations) {
         (self.name(), Declarations::of(self))
@@ -41,7 +46,7 @@ impl<C: Circuit> Described for C {
 
 /// Elaborated circuit with its type erased: the input of waves, charts, Verilog and random runs.
 #[derive(Clone)]
-pub struct Model {
+pub struct Elaborated {
     name: &'static str,
     about: &'static str,
     design: Arc<Design>,
@@ -57,23 +62,55 @@ pub struct Model {
 /// Function that makes the signals of a circuit, without their power-on values.
 pub(crate) type Declare = Arc<dyn Fn() -> Declarations + Send + Sync>;
 
-impl fmt::Debug for Model {
+impl fmt::Debug for Elaborated {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Model")
+        f.debug_struct("Elaborated")
             .field("name", &self.name)
             .finish_non_exhaustive()
     }
 }
 
-impl Model {
-    /// Creates a model from name and description, modules, and the function that makes the
+impl Elaborated {
+    /// Elaborates a circuit.
+    ///
+    /// # Errors
+    /// Returns all mistakes of the circuit.
+    pub fn new<C: Circuit>(circuit: &C) -> Result<Elaborated, EngineError> {
+        let declared = circuit.clone();
+        Elaborated::made(
+            (circuit.name(), circuit.about()),
+            elaborate(circuit)?,
+            Arc::new(move || declarations(&declared, &mut |_| {})),
+        )
+    }
+
+    /// Elaborates a circuit with signals beside it.
+    ///
+    /// # Errors
+    /// Returns all mistakes of the circuit.
+    pub fn with_beside<C: Circuit, B: Beside>(
+        circuit: &C,
+        beside: &B,
+    ) -> Result<Elaborated, EngineError> {
+        let signals = |beside: &B, source: &mut dyn Source| {
+            B::Signals::<Shapes>::make(beside, const { &scope::<B>() }, source);
+        };
+        let declared = (circuit.clone(), beside.clone());
+        Elaborated::made(
+            (circuit.name(), circuit.about()),
+            with_inputs(circuit, &mut |source| signals(beside, source))?,
+            Arc::new(move || declarations(&declared.0, &mut |source| signals(&declared.1, source))),
+        )
+    }
+
+    /// Returns the circuit of a name and a description, modules, and the function that makes the
     /// signals.
-    pub(crate) fn new(
+    fn made(
         (name, about): (&'static str, &'static str),
         design: Design,
         declare: Declare,
-    ) -> Result<Model, EngineError> {
-        Ok(Model {
+    ) -> Result<Elaborated, EngineError> {
+        Ok(Elaborated {
             name,
             about,
             flat: Arc::new(Flat::of(&design)?),

@@ -1,7 +1,8 @@
 //! Observers of a run.
 
-use super::{Circuit, Sample};
+use super::Sample;
 use crate::engine::{EngineError, InputError};
+use crate::hdl::Circuit;
 use std::io;
 use std::ops::ControlFlow;
 
@@ -35,7 +36,7 @@ pub enum RunError {
     },
 }
 
-crate::hdl::debug_as_display!(RunError);
+crate::netlist::debug_as_display!(RunError);
 
 impl RunError {
     /// Returns a conversion of an input error at this tick.
@@ -152,7 +153,8 @@ together!(A 0, B 1, D 2, E 3);
 ///
 /// ```
 /// use motion_rtl::circuits::blocks::EnableCounter;
-/// use motion_rtl::hdl::{Each, Sample, Simulator, zero};
+/// use motion_rtl::hdl::zero;
+/// use motion_rtl::sim::{Each, Sample, Simulator};
 ///
 /// let counter = EnableCounter { width: 4 };
 /// let mut inputs = zero(&counter);

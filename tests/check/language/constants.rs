@@ -1,7 +1,7 @@
 //! Constants and indices that do not fit their words are mistakes.
 
 use super::*;
-use crate::hdl::RunError;
+use motion_rtl::sim::RunError;
 
 /// Circuit with a constant in every place where one can be.
 #[derive(Debug, Clone)]

@@ -1,8 +1,8 @@
 //! All mistakes of a circuit are reported at once, with file, line and column.
 
-use super::prelude::*;
-use super::{Nothing, elaborate, netlist};
 use expect_test::{Expect, expect};
+use motion_rtl::hdl::elaborate;
+use motion_rtl::prelude::*;
 
 /// Compares the mistakes of a circuit; lines are counted from `from`.
 fn mistakes<C: Circuit>(circuit: &C, from: u32, expected: &Expect) {
@@ -263,7 +263,7 @@ fn operands_have_one_width() {
         &circuit,
         COUNTER,
         &expect![[r#"
-        tests.rs:27:20: counter: sum of `sum` (4 bits) and `by` (5 bits)
+        mod.rs:27:20: counter: sum of `sum` (4 bits) and `by` (5 bits)
     "#]],
     );
 }
@@ -276,9 +276,9 @@ fn mistakes_of_a_part_come_with_those_around_it() {
         &circuit,
         COUNTER,
         &expect![[r#"
-        tests.rs:140:28: around: port `by` has 5 bits, `by` has 4 bits
-        tests.rs:27:20: around.counter: sum of `sum` (4 bits) and `by` (5 bits)
-        tests.rs:143:32: around: net `sum` has 4 bits, a sum has 5 bits
+        mod.rs:140:28: around: port `by` has 5 bits, `by` has 4 bits
+        mod.rs:27:20: around.counter: sum of `sum` (4 bits) and `by` (5 bits)
+        mod.rs:143:32: around: net `sum` has 4 bits, a sum has 5 bits
     "#]],
     );
 }
@@ -293,8 +293,8 @@ fn a_word_has_1_to_64_bits() {
         &circuit,
         COUNTER,
         &expect![[r#"
-        tests.rs:1:1: counter: `by` has 65 bits; a word has 1 to 64
-        tests.rs:1:1: counter: `sum` has 0 bits; a word has 1 to 64
+        mod.rs:1:1: counter: `by` has 65 bits; a word has 1 to 64
+        mod.rs:1:1: counter: `sum` has 0 bits; a word has 1 to 64
     "#]],
     );
 }
@@ -305,7 +305,7 @@ fn a_part_is_settled() {
         &around(Fault::Unsettled),
         AROUND,
         &expect![[r#"
-        tests.rs:1:1: around: part `counter` is never settled
+        mod.rs:1:1: around: part `counter` is never settled
     "#]],
     );
 }
@@ -316,21 +316,21 @@ fn ports_nets_and_registers_have_their_widths() {
         &around(Fault::Port),
         AROUND,
         &expect![[r#"
-        tests.rs:51:22: around: port `by` has 4 bits, an operand has 3 bits
+        mod.rs:51:22: around: port `by` has 4 bits, an operand has 3 bits
     "#]],
     );
     mistakes(
         &around(Fault::Net),
         AROUND,
         &expect![[r#"
-        tests.rs:61:32: around: net `sum` has 4 bits, a sum has 5 bits
+        mod.rs:61:32: around: net `sum` has 4 bits, a sum has 5 bits
     "#]],
     );
     mistakes(
         &around(Fault::Register),
         AROUND,
         &expect![[r#"
-        tests.rs:75:44: around: register `last` has 4 bits, an operand has 1 bit
+        mod.rs:75:44: around: register `last` has 4 bits, an operand has 1 bit
     "#]],
     );
 }
@@ -341,8 +341,8 @@ fn a_memory_becomes_what_was_made_of_it() {
         &around(Fault::Swapped),
         AROUND,
         &expect![[r#"
-        tests.rs:1:1: around: memory `one` becomes what was made of `other`
-        tests.rs:1:1: around: memory `other` becomes what was made of `one`
+        mod.rs:1:1: around: memory `one` becomes what was made of `other`
+        mod.rs:1:1: around: memory `other` becomes what was made of `one`
     "#]],
     );
 }
@@ -353,7 +353,7 @@ fn arrays_have_their_length() {
         &around(Fault::Unmade),
         AROUND,
         &expect![[r#"
-        tests.rs:1:1: around: net `words1` is given nothing
+        mod.rs:1:1: around: net `words1` is given nothing
     "#]],
     );
 }
@@ -364,7 +364,7 @@ fn slices_are_within_the_word() {
         &around(Fault::Slice),
         AROUND,
         &expect![[r#"
-        tests.rs:62:34: around: bits 5 down to 2 of a port of `counter`, which has 4 bits
+        mod.rs:62:34: around: bits 5 down to 2 of a port of `counter`, which has 4 bits
     "#]],
     );
 }
@@ -375,7 +375,7 @@ fn fields_go_together() {
         &around(Fault::Fields),
         AROUND,
         &expect![[r#"
-        tests.rs:1:1: around: these fields do not go together
+        mod.rs:1:1: around: these fields do not go together
     "#]],
     );
 }
@@ -386,7 +386,7 @@ fn what_is_no_port_is_not_read() {
         &around(Fault::Hidden),
         AROUND,
         &expect![[r#"
-        tests.rs:57:40: around: `counter.hidden` is read, but is no port: it is not declared pub
+        mod.rs:57:40: around: `counter.hidden` is read, but is no port: it is not declared pub
     "#]],
     );
 }
@@ -397,7 +397,7 @@ fn a_name_stands_once() {
         &Twice,
         TWICE,
         &expect![[r#"
-        tests.rs:1:1: twice: the name `a` is used twice
+        mod.rs:1:1: twice: the name `a` is used twice
     "#]],
     );
 }
@@ -408,35 +408,21 @@ fn what_verilog_makes_stands_once() {
         &Made,
         MADE,
         &expect![[r#"
-        tests.rs:1:1: made: the name `AT` is used twice: Verilog makes it of `at` (4 bits) and of `at` (5 bits)
-        tests.rs:1:1: made: the name `STORE` is used twice: Verilog makes it of `store`
-        tests.rs:1:1: made: the name `held_reg` is used twice: Verilog makes it of `held`
-        tests.rs:1:1: made: the name `line_shift` is used twice: Verilog makes it of `line`
-        tests.rs:1:1: made: the name `line_to` is used twice: Verilog makes it of `line`
-        tests.rs:1:1: made: the name `line_words` is used twice: Verilog makes it of `line`
-        tests.rs:1:1: made: the name `rom` is used twice: Verilog makes it of a ROM
-        tests.rs:1:1: made: the name `store_at` is used twice: Verilog makes it of `store`
-        tests.rs:1:1: made: the name `store_word` is used twice: Verilog makes it of `store`
-        tests.rs:1:1: made: the name `sum_sum` is used twice: Verilog makes it of `sum.sum`
-        tests.rs:38:29: made: part `sum` has the name of a signal of `counter`, inside it
+        mod.rs:1:1: made: the name `AT` is used twice: Verilog makes it of `at` (4 bits) and of `at` (5 bits)
+        mod.rs:1:1: made: the name `STORE` is used twice: Verilog makes it of `store`
+        mod.rs:1:1: made: the name `held_reg` is used twice: Verilog makes it of `held`
+        mod.rs:1:1: made: the name `line_shift` is used twice: Verilog makes it of `line`
+        mod.rs:1:1: made: the name `line_to` is used twice: Verilog makes it of `line`
+        mod.rs:1:1: made: the name `line_words` is used twice: Verilog makes it of `line`
+        mod.rs:1:1: made: the name `rom` is used twice: Verilog makes it of a ROM
+        mod.rs:1:1: made: the name `store_at` is used twice: Verilog makes it of `store`
+        mod.rs:1:1: made: the name `store_word` is used twice: Verilog makes it of `store`
+        mod.rs:1:1: made: the name `sum_sum` is used twice: Verilog makes it of `sum.sum`
+        mod.rs:38:29: made: part `sum` has the name of a signal of `counter`, inside it
     "#]],
     );
 }
 
-#[test]
-fn a_module_has_a_name_of_its_own() {
-    let mut modules = Vec::new();
-    for (name, width) in [("it_2", 2), ("it", 3), ("it", 4), ("it", 3)] {
-        let other = width;
-        let mut made = elaborate(&Counter { width, other }).unwrap().modules;
-        made[0].name = name.to_owned();
-        netlist::enter(made.remove(0), &mut modules);
-    }
-    let names: Vec<_> = modules.iter().map(|module| &module.name).collect();
-    assert_eq!(names, ["it_2", "it", "it_3"]);
-}
-
-/// Circuits whose code panics.
 #[test]
 fn a_panic_of_the_circuits_own_code_is_told() {
     #[derive(Debug, Clone)]

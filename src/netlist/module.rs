@@ -1,10 +1,11 @@
 use super::node::{Id, Node};
-use crate::hdl::{Field, Role, Shape};
+use super::signal::{Field, Role, Shape};
 
 /// Netlist of one circuit: its signals, their drivers, and the circuits inside it.
 ///
 /// Two modules that differ only in memory contents and parameter values are one.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(test, derive(Default))]
 pub struct Module {
     /// Name of the circuit.
     pub name: String,

@@ -1,0 +1,20 @@
+//! The simulator: elaborated circuits, run tick by tick, and what observes their runs.
+//!
+//! A [`Simulator`] runs a circuit whose type is known, and shows its signals by name. An
+//! [`Elaborated`] circuit has its type erased: waves, charts, Verilog and random runs work on it.
+
+mod beside;
+mod cost;
+mod elaborated;
+mod observe;
+mod ports;
+pub(crate) mod sample;
+mod simulator;
+
+pub use beside::{Beside, Without};
+pub use cost::Cost;
+pub use elaborated::{Described, Elaborated};
+pub use observe::{Each, Observer, RunError, StopWhen};
+pub(crate) use sample::View as LeafView;
+pub use sample::{Lazy, Sample, State};
+pub use simulator::{Simulator, Watcher};
