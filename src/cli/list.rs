@@ -121,7 +121,9 @@ pub fn list(arguments: &Arguments) -> Result<(), Failure> {
 fn circuit(entry: &Entry, made: &dyn AnyModel) -> Circuit {
     let declarations = made.outline();
     let keys = entry.keys().into_iter().map(|key| {
-        let Key { name, full, small } = key;
+        let Key {
+            name, full, small, ..
+        } = key;
         (name, Values { full, small })
     });
     let leaves = &declarations.leaves;

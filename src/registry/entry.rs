@@ -1,11 +1,11 @@
-use super::keys::{self, Key, Refused, Source};
+use super::keys::{self, Key, Refused};
+use super::reader::{self, Kinds, Misread};
 use super::{AnyCircuit, AnyModel, AnySweep, Pair};
 use crate::check::Specified;
 use crate::hdl::{Circuit, Declarations};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use toml::de::{DeTable, Deserializer};
-use toml::{Spanned, Table};
+use toml::Table;
 
 /// One circuit of the catalogue, with a full and a small value.
 #[derive(Clone, Copy)]
@@ -130,8 +130,8 @@ pub trait Maker: Sync {
     fn value(&self, base: Base) -> Made;
     /// Writes that circuit as a table of its keys.
     fn table(&self, base: Base) -> Result<Table, toml::ser::Error>;
-    /// Reads a circuit from all its keys.
-    fn read(&self, table: Spanned<DeTable<'_>>) -> Result<Made, Source>;
+    /// Reads a circuit from all its keys, whose kinds it adds.
+    fn read(&self, table: &Table, kinds: &Kinds) -> Result<Made, Misread>;
     /// Returns the law of the least circuit.
     fn least_law(&self) -> Option<Box<dyn AnySweep>>;
 }
@@ -174,9 +174,8 @@ impl<C: Circuit + Serialize + DeserializeOwned> Maker for Of<C> {
         Table::try_from(self.base(base))
     }
 
-    fn read(&self, table: Spanned<DeTable<'_>>) -> Result<Made, Source> {
-        let read = serde_path_to_error::deserialize(Deserializer::from(table));
-        read.map(|circuit| self.known(circuit))
+    fn read(&self, table: &Table, kinds: &Kinds) -> Result<Made, Misread> {
+        reader::read(table, kinds).map(|circuit| self.known(circuit))
     }
 
     fn least_law(&self) -> Option<Box<dyn AnySweep>> {

@@ -1,11 +1,11 @@
 //! Keys of circuits: how a circuit is made from its full or small value and `key=value` pairs.
 
 use super::entry::{Base, Entry, Made};
+use super::reader::{Kind, Kinds, Misread};
 use crate::engine::EngineError;
 use crate::nearest::nearest;
 use crate::netlist::Wrong;
 use crate::settings::{Pair, value};
-use toml::de::DeTable;
 use toml::{Table, Value};
 
 /// The largest width, or number of stages, axes and the like.
@@ -26,9 +26,6 @@ const COUNTS: &[&str] = &[
 /// A value that no key takes.
 const NO_VALUE: &str = "?";
 
-/// Fault of a table, with its key.
-pub type Source = serde_path_to_error::Error<toml::de::Error>;
-
 /// A key of a circuit with its values.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 pub struct Key {
@@ -39,6 +36,13 @@ pub struct Key {
     pub full: Option<String>,
     /// Value in the small circuit; `None` if it is not set.
     pub small: Option<String>,
+    /// Type, in words.
+    #[serde(rename = "type")]
+    pub kind: &'static str,
+    /// `bits` of a width, or nothing.
+    pub unit: &'static str,
+    /// Least and largest value, or the names.
+    pub range: String,
 }
 
 /// A pair that a circuit does not take.
@@ -89,13 +93,7 @@ pub(super) fn made(entry: &Entry, base: Base, pairs: &[Pair]) -> Result<Made, Re
     let wrong: Vec<_> = wrong.collect();
     match read {
         _ if !wrong.is_empty() => Err(Refused::Pairs(wrong)),
-        Err(error) => {
-            let (problem, allowed) = split(error.inner().message());
-            let path = error.path();
-            Err(Refused::Values(format!(
-                "{path}: {problem}; allowed: {allowed}"
-            )))
-        }
+        Err(error) => Err(Refused::Values(error.to_string())),
         Ok(made) => match made.model.model() {
             Ok(_) => Ok(made),
             Err(error) => Err(Refused::Values(without_sites(&error))),
@@ -129,20 +127,46 @@ fn without_sites(error: &EngineError) -> String {
 /// All keys of a circuit, by name.
 pub(super) fn all(entry: &Entry) -> Vec<Key> {
     let [full, small] = [Base::Full, Base::Small].map(|base| table(entry, base));
-    let names = names(entry, &full).into_iter().map(|name| Key {
-        full: leaf(&full, &name).map(text),
-        small: leaf(&small, &name).map(text),
-        name,
+    let names = names(entry, &full).into_iter().map(|name| {
+        let kind = kind(entry, &full, &name).or_else(|| kind(entry, &small, &name));
+        let (kind, unit, range) = shown(&name, kind);
+        Key {
+            full: leaf(&full, &name).map(text),
+            small: leaf(&small, &name).map(text),
+            kind,
+            unit,
+            range,
+            name,
+        }
     });
     names.collect()
+}
+
+/// Returns type, unit and range of a key in words.
+fn shown(key: &str, kind: Option<Kind>) -> (&'static str, &'static str, String) {
+    let bits = match is_width(key) {
+        true => "bits",
+        false => "",
+    };
+    match kind {
+        Some(Kind::Size) => ("whole number", bits, format!("0 to {MOST}")),
+        Some(Kind::Whole) => ("whole number", "", "from 0".to_owned()),
+        Some(Kind::Signed) => ("whole number", "", String::new()),
+        Some(Kind::Flag) => ("true or false", "", String::new()),
+        Some(Kind::Name(names)) => ("name", "", names.join(", ")),
+        Some(Kind::Table(keys)) => ("table", "", keys.join(", ")),
+        Some(Kind::List) => ("list", "", String::new()),
+        None => ("value", "", String::new()),
+    }
 }
 
 /// The keys of widths and other sizes.
 pub(super) fn sizes(entry: &Entry, base: Base, pairs: &[Pair]) -> Vec<(String, u64)> {
     let table = pairs.iter().fold(table(entry, base), changed);
+    let kinds = kinds(entry, &table);
     let sizes = names(entry, &table).into_iter().filter_map(|name| {
         let size = leaf(&table, &name)?.as_integer()?;
-        is_size(entry, &table, &name).then_some((name, size.unsigned_abs()))
+        is_size(&kinds, &name).then_some((name, size.unsigned_abs()))
     });
     sizes.collect()
 }
@@ -157,10 +181,26 @@ fn table(entry: &Entry, base: Base) -> Table {
     entry.maker.table(base).unwrap_or_default()
 }
 
-fn read(entry: &Entry, table: &Table) -> Result<Made, Source> {
-    let text = table.to_string();
-    let (parsed, _) = DeTable::parse_recoverable(&text);
-    entry.maker.read(parsed)
+fn read(entry: &Entry, table: &Table) -> Result<Made, Misread> {
+    entry.maker.read(table, &Kinds::default())
+}
+
+/// Kinds of the keys of a table, up to the first that is misread.
+fn kinds(entry: &Entry, table: &Table) -> Vec<(String, Kind)> {
+    let kinds = Kinds::default();
+    // A key that is misread has its kind too.
+    let _ = entry.maker.read(table, &kinds);
+    kinds.into_inner()
+}
+
+/// Kind of a key, set or not.
+fn kind(entry: &Entry, table: &Table, key: &str) -> Option<Kind> {
+    let find = |kinds: &[(String, Kind)]| {
+        let found = kinds.iter().find(|(name, _)| name == key);
+        found.map(|(_, kind)| *kind)
+    };
+    let unset = || changed(table.clone(), &Pair::new(key, NO_VALUE));
+    find(&kinds(entry, table)).or_else(|| find(&kinds(entry, &unset())))
 }
 
 /// Returns the table with a pair's value; unchanged if a key on the way has no keys inside.
@@ -200,28 +240,24 @@ fn names(entry: &Entry, table: &Table) -> Vec<String> {
     }
     let mut names = Vec::new();
     add(&mut names, table, "");
-    // "unknown field `?`, expected one of `a`, `b`"
-    let message = message(entry, table, NO_VALUE);
-    let fields = message.split('`').skip(3).step_by(2);
-    names.extend(
-        fields
-            .filter(|key| !table.contains_key(*key))
-            .map(str::to_owned),
-    );
+    let top = kinds(entry, table)
+        .into_iter()
+        .find_map(|(_, kind)| match kind {
+            Kind::Table(keys) => Some(keys),
+            _ => None,
+        });
+    let unset = top.into_iter().flatten();
+    let unset = unset.filter(|key| !table.contains_key(**key));
+    names.extend(unset.map(|key| (*key).to_owned()));
     names.retain(|name| !entry.is_idle(name));
     names
 }
 
-/// Message of the reader for a value that no key takes.
-fn message(entry: &Entry, table: &Table, key: &str) -> String {
-    let table = changed(table.clone(), &Pair::new(key, NO_VALUE));
-    let error = read(entry, &table).err();
-    error.map_or(String::new(), |error| error.inner().message().to_owned())
-}
-
-/// True for a key of widths and other sizes, which are of the type `usize`.
-fn is_size(entry: &Entry, table: &Table, key: &str) -> bool {
-    message(entry, table, key).ends_with("expected usize")
+/// True for a key of widths and other sizes.
+fn is_size(kinds: &[(String, Kind)], key: &str) -> bool {
+    kinds
+        .iter()
+        .any(|(name, kind)| name == key && *kind == Kind::Size)
 }
 
 /// True for a key that changes nothing.
@@ -261,11 +297,12 @@ fn meant<'a>(given: &str, names: impl Iterator<Item = &'a str> + Clone) -> Strin
 
 /// Refuses a width, or a number of things, that no circuit has.
 fn too_large(entry: &Entry, table: &Table, pair: &Pair) -> Option<WrongPair> {
+    let kinds = kinds(entry, table);
     let mut sizes = names(entry, table).into_iter().filter(|name| {
         let below = name.strip_prefix(&pair.key);
         let inside = below.is_some_and(|below| below.is_empty() || below.starts_with('.'));
         let number = leaf(table, name).and_then(Value::as_integer);
-        inside && number.is_some_and(|number| number > MOST) && is_size(entry, table, name)
+        inside && number.is_some_and(|number| number > MOST) && is_size(&kinds, name)
     });
     sizes.next().map(|_| WrongPair {
         pair: pair.clone(),
@@ -280,44 +317,19 @@ fn wrong(entry: &Entry, table: &Table, pair: &Pair) -> Option<WrongPair> {
         return Some(unknown(entry, table, pair));
     }
     let error = read(entry, &changed(table.clone(), pair)).err()?;
-    let (path, message) = (error.path().to_string(), error.inner().message());
-    if message.starts_with("unknown field") && pair.key.starts_with(&path) {
+    if error.unknown && pair.key.starts_with(&error.key) {
         return Some(unknown(entry, table, pair));
     }
-    // A number in place of a variant: the allowed names come from the message about a wrong name.
-    let (problem, allowed) = match message {
-        "wanted string or table" if path == pair.key => {
-            let names = split(&self::message(entry, table, &path)).1;
-            (format!("is {}", pair.value), names)
-        }
-        message => split(message),
+    let problem = match error.key == pair.key {
+        true => error.problem,
+        false => format!("{}: {}", error.key, error.problem),
     };
-    let problem = match path == pair.key {
-        true => problem,
-        false => format!("{path}: {problem}"),
-    };
+    let names = error.allowed.split('`').skip(1).step_by(2);
     Some(WrongPair {
-        problem: problem + &meant(&pair.value, allowed.split('`').skip(1).step_by(2)),
+        problem: problem + &meant(&pair.value, names),
         pair: pair.clone(),
-        allowed,
+        allowed: error.allowed,
     })
-}
-
-/// A message of the reader as problem and what is allowed.
-fn split(message: &str) -> (String, String) {
-    let whole = "the key with all of its table, KEY={a=1, b=2}";
-    let (problem, allowed) = message
-        .split_once(", expected ")
-        .unwrap_or((message, whole));
-    let allowed = match allowed.strip_prefix("one of ").unwrap_or(allowed) {
-        "usize" | "u64" => "a whole number from 0",
-        "i64" => "a whole number",
-        "a boolean" => "true or false",
-        "a sequence" => "a list, [1, 2]",
-        record if record.starts_with("struct ") => "a table, {key = value}",
-        other => other,
-    };
-    (problem.to_owned(), allowed.to_owned())
 }
 
 /// Formats a value as in a pair.

@@ -24,6 +24,7 @@ mod keys;
 mod model;
 #[cfg(test)]
 mod ports_out;
+mod reader;
 mod sweep;
 
 pub use crate::settings::{Pair, PairError};

@@ -181,7 +181,7 @@ fn what_cannot_be_proved_is_refused() {
     set(
         "integrator",
         "rule=9",
-        "is 9; allowed: `floor`, `truncating`, `centred`",
+        "is 9; allowed: `floor`, `truncating` or `centred`",
     );
     set(
         "sync_stage",

@@ -233,13 +233,16 @@ fn circuits_have_their_keys_listed() {
     let bench = Bench::new();
     let text = bench.succeed(&["keys", "compensator"]);
     for line in [
-        "widths.position = 24, small: 4",
-        "variant.detector = incremental",
+        "widths.position = 24, small: 4: whole number, bits, 0 to 4096",
+        "variant.detector = incremental: name, incremental, absolute, phase_shift, resolver",
     ] {
         assert!(text.lines().any(|own| own == line), "{line}: {text}");
     }
     let json = bench.json(&["keys", "compensator"]);
-    let position = json!({"key": "widths.position", "full": "24", "small": "4"});
+    let position = json!({
+        "key": "widths.position", "full": "24", "small": "4",
+        "type": "whole number", "unit": "bits", "range": "0 to 4096",
+    });
     assert!(
         json["circuit"].as_array().unwrap().contains(&position),
         "{json}"
@@ -258,6 +261,48 @@ fn circuits_have_their_keys_listed() {
     let list = bench.json(&["list"]);
     let count = list["circuits"].as_array().unwrap().len();
     assert_eq!(names["circuits"].as_array().unwrap().len(), count);
+}
+
+/// Every key of every circuit has a type, and the values that stand beside it are in its range.
+#[test]
+fn keys_of_circuits_have_a_type_and_a_range_that_their_values_are_in() {
+    let bench = Bench::new();
+    let names = bench.json(&["keys"]);
+    let mut types = std::collections::BTreeSet::new();
+    for name in names["circuits"].as_array().unwrap() {
+        let name = name.as_str().unwrap();
+        let keys = bench.json(&["keys", name]);
+        for key in keys["circuit"].as_array().unwrap() {
+            let word = |field: &str| key[field].as_str();
+            let (kind, range) = (word("type").unwrap(), word("range").unwrap());
+            types.insert(kind.to_owned());
+            let values = [word("full"), word("small")].into_iter().flatten();
+            for value in values {
+                let fits = match kind {
+                    "whole number" => value.parse().is_ok_and(|value: i64| {
+                        let (least, most) = range.split_once(" to ").unwrap_or(("0", "0"));
+                        range.is_empty() || range == "from 0" && value >= 0 || {
+                            let [least, most] =
+                                [least, most].map(|end| end.parse::<i64>().unwrap());
+                            (least..=most).contains(&value)
+                        }
+                    }),
+                    "name" => range.split(", ").any(|name| name == value),
+                    "true or false" => value.parse::<bool>().is_ok(),
+                    "list" => value.starts_with('['),
+                    // A table that is not set in both stands for all of its keys.
+                    "table" => false,
+                    other => panic!("{name}: {key}: there is no type {other}"),
+                };
+                assert!(fits, "{name}: {key}");
+            }
+        }
+    }
+    assert!(
+        types
+            .into_iter()
+            .eq(["list", "name", "table", "true or false", "whole number"].map(str::to_owned))
+    );
 }
 
 /// Keys of a scenario that moves to another circuit.

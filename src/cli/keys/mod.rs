@@ -112,15 +112,19 @@ impl Keys {
     }
 }
 
-/// Formats the keys of a circuit, a line each: the value as it is built, and that of the small one.
+/// Formats the keys of a circuit, a line each: the value as it is built, that of the small one, and
+/// what is allowed.
 fn circuit_text(keys: &[registry::Key]) -> String {
     let value = |value: &Option<String>| value.clone().unwrap_or_else(|| "not set".to_owned());
     let lines = keys.iter().map(|key| {
         let (full, small) = (value(&key.full), value(&key.small));
-        match full == small {
-            true => format!("{} = {full}\n", key.name),
-            false => format!("{} = {full}, small: {small}\n", key.name),
-        }
+        let parts = [key.kind, key.unit, key.range.as_str()];
+        let parts: Vec<_> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+        let small = match full == small {
+            true => String::new(),
+            false => format!(", small: {small}"),
+        };
+        format!("{} = {full}{small}: {}\n", key.name, parts.join(", "))
     });
     lines.collect()
 }
