@@ -13,7 +13,7 @@
 //! so the product has as many digits as the offset, whatever the radius; then it is shifted up to
 //! the angle's unit. Bits that overflow are whole turns.
 
-use super::widths::PointWidths;
+use super::widths::{PRODUCT_FRACTION, PointWidths};
 use crate::prelude::*;
 
 /// Names of the states.
@@ -21,8 +21,6 @@ const STATES: &[&str] = &["idle", "multiply", "shift"];
 const IDLE: u64 = 0;
 const MULTIPLY: u64 = 1;
 const SHIFT: u64 = 2;
-/// Bits of the product below the offset's last.
-pub const EXTRA: usize = 4;
 
 /// Angle from an offset and a curvature.
 ///
@@ -106,7 +104,10 @@ impl Circuit for ArcAngle {
         let state = take.mux(MULTIPLY, multiplied.mux(SHIFT, q.state));
         let count = multiplied.mux(q.shifts - 1, q.count - 1);
         let halved = total.shift_right(1);
-        let factor = i.offset.resize(self.widths.product()).shift_left(EXTRA);
+        let factor = i
+            .offset
+            .resize(self.widths.product())
+            .shift_left(PRODUCT_FRACTION);
         let moved = shifts.mux(q.angle.shift_left(1), q.angle);
         let next = Reg {
             state: complete.mux(IDLE, state),

@@ -16,6 +16,7 @@
 //! factor per tick, all axes at once, each of the three products rounded down.
 
 use super::path_point::of_axes;
+use super::widths::FeedbackWidths;
 use crate::prelude::*;
 
 /// Names of the states.
@@ -24,71 +25,6 @@ const IDLE: u64 = 0;
 const PROJECT: u64 = 1;
 const SPLIT: u64 = 2;
 const SCALE: u64 = 3;
-
-/// Widths of an error feedback in bits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FeedbackWidths {
-    /// W: positions of the motors in counts, signed.
-    pub count: usize,
-    /// P: points in guard units, signed, with P − W guard bits.
-    pub position: usize,
-    /// K: gains, half of them fraction bits.
-    pub gain: usize,
-}
-
-impl FeedbackWidths {
-    /// Guard bits, which are the fraction bits of a direction.
-    const fn guard(&self) -> usize {
-        self.position - self.count
-    }
-
-    /// Pairs of bits of a direction: its fraction, its one and its sign.
-    const fn direction_pairs(&self) -> usize {
-        (self.guard() + 2).div_ceil(2)
-    }
-
-    /// Coordinate of a direction, signed.
-    pub(super) const fn direction(&self) -> usize {
-        2 * self.direction_pairs()
-    }
-
-    /// Pairs of bits of a gain.
-    const fn gain_pairs(&self) -> usize {
-        self.gain.div_ceil(2)
-    }
-
-    /// The number of a pair of either.
-    const fn pair(&self) -> usize {
-        let (direction, gain) = (self.direction_pairs(), self.gain_pairs());
-        log2(if direction > gain { direction } else { gain })
-    }
-
-    /// Fraction bits of a gain.
-    pub const fn gain_fraction(&self) -> usize {
-        self.gain / 2
-    }
-
-    /// Bits of a gain, or of a direction, that are not fraction.
-    const fn whole(&self) -> usize {
-        let (gain, direction) = (
-            2 * self.gain_pairs() - self.gain_fraction(),
-            self.direction() - self.guard(),
-        );
-        if gain > direction { gain } else { direction }
-    }
-
-    /// An error, normal or tangential.
-    const fn error(&self) -> usize {
-        self.position + 2
-    }
-
-    /// Width of a sum: four times four errors, or a normal and a tangential one, and the whole
-    /// bits of a factor.
-    pub(super) const fn sum(&self) -> usize {
-        self.position + self.whole() + 5
-    }
-}
 
 signals! { for FeedbackWidths as c;
     /// Gains of an error feedback.

@@ -13,9 +13,6 @@
 use super::widths::PointWidths;
 use crate::prelude::*;
 
-/// Words of a segment for three axes.
-pub const WORDS: usize = 16;
-
 /// Store of 2^A segments.
 ///
 /// `load` is high from the second tick after `fetch` on, for as many ticks as there are words;

@@ -1,11 +1,15 @@
 //! Widths of the trajectory controller's words.
 
-use super::arc_angle::EXTRA;
-use super::error_feedback::FeedbackWidths;
 use super::model_state::ModelWidths;
-use super::segment_store::WORDS;
 use super::servo_arithmetic::{FINE, LEFT, ServoWidths};
 use crate::circuits::arc_generator::Widths as RecordWidths;
+use crate::prelude::log2;
+
+/// Words of a segment for three axes.
+pub const SEGMENT_WORDS: usize = 16;
+
+/// Bits of the product of an offset and a curvature below the offset's last.
+pub const PRODUCT_FRACTION: usize = 4;
 
 /// Widths in bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -172,7 +176,11 @@ impl PointWidths {
     /// Words of a segment.
     #[must_use]
     pub const fn words(&self) -> usize {
-        if self.word > 4 { WORDS + 4 } else { WORDS }
+        if self.word > 4 {
+            SEGMENT_WORDS + 4
+        } else {
+            SEGMENT_WORDS
+        }
     }
 
     /// Bits of a radius below the guard unit.
@@ -190,12 +198,77 @@ impl PointWidths {
     /// Product of an offset and a curvature: a sum of two offsets with the bits below them.
     #[must_use]
     pub const fn product(&self) -> usize {
-        self.point + EXTRA + 1
+        self.point + PRODUCT_FRACTION + 1
     }
 
     /// Address of a word of a segment.
     #[must_use]
     pub const fn address(&self) -> usize {
         self.segment + self.word
+    }
+}
+
+/// Widths of an error feedback in bits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FeedbackWidths {
+    /// W: positions of the motors in counts, signed.
+    pub count: usize,
+    /// P: points in guard units, signed, with P − W guard bits.
+    pub position: usize,
+    /// K: gains, half of them fraction bits.
+    pub gain: usize,
+}
+
+impl FeedbackWidths {
+    /// Guard bits, which are the fraction bits of a direction.
+    pub(super) const fn guard(&self) -> usize {
+        self.position - self.count
+    }
+
+    /// Pairs of bits of a direction: its fraction, its one and its sign.
+    pub(super) const fn direction_pairs(&self) -> usize {
+        (self.guard() + 2).div_ceil(2)
+    }
+
+    /// Coordinate of a direction, signed.
+    pub(super) const fn direction(&self) -> usize {
+        2 * self.direction_pairs()
+    }
+
+    /// Pairs of bits of a gain.
+    pub(super) const fn gain_pairs(&self) -> usize {
+        self.gain.div_ceil(2)
+    }
+
+    /// The number of a pair of either.
+    pub(super) const fn pair(&self) -> usize {
+        let (direction, gain) = (self.direction_pairs(), self.gain_pairs());
+        log2(if direction > gain { direction } else { gain })
+    }
+
+    /// Fraction bits of a gain.
+    pub const fn gain_fraction(&self) -> usize {
+        self.gain / 2
+    }
+
+    /// Bits of a gain, or of a direction, that are not fraction.
+    pub(super) const fn whole(&self) -> usize {
+        let (gain, direction) = (
+            2 * self.gain_pairs() - self.gain_fraction(),
+            self.direction() - self.guard(),
+        );
+        if gain > direction { gain } else { direction }
+    }
+
+    /// An error, normal or tangential.
+    pub(super) const fn error(&self) -> usize {
+        self.position + 2
+    }
+
+    /// Width of a sum: four times four errors, or a normal and a tangential one, and the whole
+    /// bits of a factor.
+    pub(super) const fn sum(&self) -> usize {
+        self.position + self.whole() + 5
     }
 }

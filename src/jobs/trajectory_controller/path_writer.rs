@@ -1,14 +1,15 @@
 //! Control computer that writes the path to the segment stores, one word per tick.
 
 use super::program::Program;
+use crate::circuits::trajectory_controller::Widths;
 use crate::circuits::trajectory_controller::path_point::{AXES, PathWrite};
 use crate::circuits::trajectory_controller::vector_correction::Correction;
-use crate::circuits::trajectory_controller::{Widths, segment_store};
+use crate::circuits::trajectory_controller::widths::SEGMENT_WORDS;
 use crate::hdl::Value;
 use crate::input::COORDINATES;
 
 /// Number of words read of a segment, and of one with a third coordinate.
-const SEGMENT_WORDS: [usize; 2] = [13, segment_store::WORDS];
+const READ_WORDS: [usize; 2] = [13, SEGMENT_WORDS];
 
 /// Number of words with a fourth axis, which are all read.
 const MOST_WORDS: usize = Widths::FULL.point().of_axes(AXES).words();
@@ -61,7 +62,7 @@ impl<'a> PathWriter<'a> {
         let words = segment.words(&Widths::FULL);
         self.words[..words.len()].copy_from_slice(&words);
         let spatial = words[0] >> 7 & 1;
-        self.count = SEGMENT_WORDS[spatial as usize];
+        self.count = READ_WORDS[spatial as usize];
         if let Some(fourth) = &mut segment.fourth {
             fourth.base -= origin[COORDINATES];
         }

@@ -27,8 +27,8 @@ use super::splines;
 use crate::circuits::blocks::cordic_state::GAIN;
 use crate::circuits::trajectory_controller::Widths;
 use crate::circuits::trajectory_controller::path_point::AXES;
-use crate::circuits::trajectory_controller::segment_store::WORDS;
 use crate::circuits::trajectory_controller::vector_correction::Correction;
+use crate::circuits::trajectory_controller::widths::SEGMENT_WORDS;
 use crate::input::{COORDINATES, Point};
 use crate::path::circle::Circle;
 use crate::path::error::{PathError, Reason};
@@ -87,9 +87,9 @@ impl Segment {
 
     /// Returns its words, each below 2^D. A turn must be at least 1.
     #[must_use]
-    pub fn words(&self, widths: &Widths) -> [u64; WORDS] {
+    pub fn words(&self, widths: &Widths) -> [u64; SEGMENT_WORDS] {
         let word = |value: i64| value as u64 & ((1 << widths.data) - 1);
-        let mut words = [0; WORDS];
+        let mut words = [0; SEGMENT_WORDS];
         if let Some(arc) = self.arc {
             // 2^(n − 4) < turn <= 2^(n − 3): the mantissa has its leading bit set.
             let n = (arc.turn.log2().ceil() as usize + 3).min(widths.angle);

@@ -1,8 +1,8 @@
-use crate::circuits::trajectory_controller::error_feedback::FeedbackWidths;
 use crate::circuits::trajectory_controller::model_state::ModelWidths;
 use crate::circuits::trajectory_controller::point_sequencer::RADIUS;
 use crate::circuits::trajectory_controller::servo_arithmetic::ServoWidths;
 use crate::circuits::trajectory_controller::vector_correction::Correction;
+use crate::circuits::trajectory_controller::widths::FeedbackWidths;
 use crate::circuits::trajectory_controller::widths::PointWidths;
 use crate::circuits::trajectory_controller::{
     ArcAngle, AxisRow, ControlledAxis, ErrorFeedback, FeedbackSweep, LengthClamp, LengthPowers,

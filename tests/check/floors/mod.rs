@@ -109,6 +109,22 @@ fn no_module_uses_one_above_it() {
     );
 }
 
+/// One style: a module with modules inside is `mod.rs` in their folder.
+#[test]
+fn a_folder_has_its_module_inside() {
+    let mut folders = vec!["src/cli".to_owned()];
+    folders.extend(files("src").into_iter().map(|(name, _)| {
+        let (folder, _) = name.rsplit_once('/').expect("a path");
+        folder.to_owned()
+    }));
+    folders.retain(|folder| folder != "src");
+    let without: Vec<_> = folders
+        .iter()
+        .filter(|folder| !Path::new(&format!("{folder}/mod.rs")).exists())
+        .collect();
+    assert!(without.is_empty(), "no mod.rs: {without:?}");
+}
+
 #[test]
 fn paths_upwards_are_found() {
     let lib = "//! # Floors\n//!\n//! | [`low`] | a |\n//! | [`left`], [`right`] | b |\n\

@@ -1,8 +1,8 @@
 //! The law of the error feedback, which it keeps, and of one that confuses its gains.
 
 use motion_rtl::check::{Law, sweep};
-use motion_rtl::circuits::trajectory_controller::error_feedback::FeedbackWidths;
 use motion_rtl::circuits::trajectory_controller::feedback_sweep::{In as Case, Net as Fed};
+use motion_rtl::circuits::trajectory_controller::widths::FeedbackWidths;
 use motion_rtl::circuits::trajectory_controller::{ErrorFeedback, FeedbackSweep};
 use motion_rtl::prelude::*;
 

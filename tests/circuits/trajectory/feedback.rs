@@ -1,8 +1,7 @@
 //! Error feedback against whole numbers: every case where words are narrow, random ones at full width.
 
-use motion_rtl::circuits::trajectory_controller::error_feedback::{
-    FeedbackGains, FeedbackWidths, In,
-};
+use motion_rtl::circuits::trajectory_controller::error_feedback::{FeedbackGains, In};
+use motion_rtl::circuits::trajectory_controller::widths::FeedbackWidths;
 use motion_rtl::circuits::trajectory_controller::{ErrorFeedback, Widths};
 use motion_rtl::hdl::{Value, zero};
 use motion_rtl::sim::Simulator;

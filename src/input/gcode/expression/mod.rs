@@ -369,5 +369,4 @@ fn finite(of: &str, value: f64) -> Result<f64, Problem> {
 }
 
 #[cfg(test)]
-#[path = "expression_tests.rs"]
 mod tests;
