@@ -47,7 +47,7 @@ pub use place::{At, MemoryAt, Number, Signals};
 pub use property::{After, Moment, Property};
 pub use record::{Cells, MemoryShape, Nothing, Pass, Record, Sink, Source, Walk};
 pub use values::{Registers, Values};
-pub use view::{Edge, Kept, Place, Seen, Shapes, Value, View, Wire};
+pub use view::{Driven, Edge, Kept, Place, Seen, Shapes, Value, View, Wire};
 pub use words::{Bit, Choice, Cut, I, Operand, U, Word, log2};
 
 use crate::netlist::{Role, Setting};

@@ -1,8 +1,9 @@
 //! Records of signals, generic over the view of a signal.
 
 use super::memory::{Contents, Written};
-use super::view::View;
+use super::view::{self, Driven, View};
 use crate::netlist::{Field, Role, Shape, Site};
+use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// Struct of signals that belong to a `C`, as a [`View`] sees them; declared by
@@ -18,6 +19,24 @@ use std::sync::Arc;
 pub trait Record<C: ?Sized, V: View>: Walk<V> {
     /// Creates a record; `source` gives each leaf.
     fn make(of: &C, field: &'static Field, source: &mut dyn Source) -> Self;
+
+    /// Creates a record with all words low, for the ports that a circuit leaves unused:
+    /// `counter::In { enable, ..counter::In::low(&self.counter) }`.
+    fn low(of: &C) -> Self
+    where
+        V: Driven,
+    {
+        Self::make(of, view::role(Role::Input), &mut Low::<V>(PhantomData))
+    }
+}
+
+/// Source of low words in a view.
+struct Low<V>(PhantomData<V>);
+
+impl<V: Driven> Source for Low<V> {
+    fn word(&mut self, _: &'static Field, shape: Shape, _: i128) -> u64 {
+        V::low(shape)
+    }
 }
 
 /// Record that can be walked over, whatever it belongs to.

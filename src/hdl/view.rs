@@ -1,13 +1,14 @@
 //! Views: the types of a record's signals.
 
 use super::Circuit;
+use super::build;
 use super::memory::{Ram, Shift, Written};
 use super::part::{Part, Settled};
 use super::place::{At, MemoryAt, Signals};
 use super::record::{Cells, Pass, Record, Source};
 use super::values::{Registers, Values};
 use super::words::{Bit, I, U};
-use crate::netlist::{Field, Role};
+use crate::netlist::{Field, Role, Shape};
 use std::fmt::Debug;
 use std::sync::Arc;
 
@@ -60,6 +61,24 @@ pub trait View: Copy + Debug + 'static {
     /// Returns the effect of an edge on a shift register.
     fn of_shift(_: &Self::Shift) -> Written {
         Written::default()
+    }
+}
+
+/// View in which input ports are driven: [`Wire`] inside a circuit, [`Value`] while it runs.
+pub trait Driven: View {
+    /// Returns the token of a word whose bits are low.
+    fn low(shape: Shape) -> u64;
+}
+
+impl Driven for Wire {
+    fn low(shape: Shape) -> u64 {
+        build::constant(0, build::nearest(shape)) as u64
+    }
+}
+
+impl Driven for Value {
+    fn low(_: Shape) -> u64 {
+        0
     }
 }
 

@@ -45,6 +45,10 @@ impl BlendPoint {
         self.column(SHARE_WORD, None)
     }
 
+    const fn share_step(&self) -> DifferenceColumn {
+        self.column(SHARE_WORD + 1, Some(SHARE_WORD + 2))
+    }
+
     const fn column(&self, whole_word: u64, part_word: Option<u64>) -> DifferenceColumn {
         DifferenceColumn {
             widths: difference_column::Widths {
@@ -80,7 +84,7 @@ signals! { for BlendPoint as c;
         /// h, in units of 2^−B.
         pub share: Part<DifferenceColumn>(c.share()),
         /// 1/M.
-        pub share_step: Part<DifferenceColumn>(c.column(SHARE_WORD + 1, Some(SHARE_WORD + 2))),
+        pub share_step: Part<DifferenceColumn>(c.share_step()),
         /// Bit index of a product.
         pub control: Part<CoefficientControl>(c.control()),
         /// (2 − h)h³.
@@ -107,19 +111,19 @@ impl Circuit for BlendPoint {
     records!(In, Nothing, Net, Parts);
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
-        let column = |step: Bit, by_whole: I, by_part: U| difference_column::In {
+        let share = p.share.settle(difference_column::In {
             record: i.record.clone(),
             modulus: i.modulus,
-            step,
-            by_whole,
-            by_part,
-        };
-        let one = p.share_step.q.clone();
-        let share = p.share.settle(column(i.step, one.whole, one.part));
-        let of = &self.widths;
-        let nothing = (I::new(0, of.coefficient), U::new(0, of.fraction));
-        p.share_step
-            .settle(column(Bit::low(), nothing.0, nothing.1));
+            step: i.step,
+            by_whole: p.share_step.q.whole,
+            by_part: p.share_step.q.part,
+        });
+        // A constant: it is only loaded.
+        p.share_step.settle(difference_column::In {
+            record: i.record.clone(),
+            modulus: i.modulus,
+            ..difference_column::In::low(&self.share_step())
+        });
         let control = p.control.settle(coefficient_control::In {
             step: p.weight.q.begins,
             halt: i.halt,

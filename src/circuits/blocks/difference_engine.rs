@@ -94,15 +94,15 @@ impl Circuit for DifferenceEngine {
             by_whole,
             by_part,
         };
-        let nothing = (I::new(0, self.widths.whole), U::new(0, self.widths.part));
         let value = p.value.settle(column(p.d1.q.whole, p.d1.q.part));
         p.d1.settle(column(p.d2.q.whole, p.d2.q.part));
         p.d2.settle(column(p.d3.q.whole, p.d3.q.part));
         p.d3.settle(column(p.d4.q.whole, p.d4.q.part));
         // The lowest one only is loaded.
         p.d4.settle(difference_column::In {
-            step: Bit::low(),
-            ..column(nothing.0, nothing.1)
+            record: i.record.clone(),
+            modulus: i.modulus,
+            ..difference_column::In::low(&self.difference(4))
         });
         let nearest = value.w.nearest;
         (Net { nearest }, Nothing)

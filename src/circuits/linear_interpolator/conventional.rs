@@ -36,6 +36,12 @@ impl Conventional {
             settings: 2,
         }
     }
+
+    const fn commands(&self) -> AxisSwitch {
+        AxisSwitch {
+            position: self.widths.position,
+        }
+    }
 }
 
 signals! { for Conventional as c;
@@ -54,7 +60,7 @@ signals! { for Conventional as c;
         /// Position pattern generator 14 of Y.
         pub pattern_y: Part<PatternGenerator>(c.widths.pattern()),
         /// Position commands.
-        pub commands: Part<AxisSwitch>(AxisSwitch { position: c.widths.position }),
+        pub commands: Part<AxisSwitch>(c.commands()),
     }
 }
 
@@ -101,11 +107,10 @@ impl Circuit for Conventional {
         });
         let commands = p.commands.settle(axis_switch::In {
             load: valid,
-            swapped: Bit::low(),
             position: x.position,
             slave_from: y.position,
-            integral: I::new(0, self.widths.position),
             clear: sequencer.w.home,
+            ..axis_switch::In::low(&self.commands())
         });
         let net = ports_out(&targets, &sequencer, &commands, valid);
         (net, Nothing)

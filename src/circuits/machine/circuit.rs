@@ -17,7 +17,6 @@ use crate::circuits::lead_angle::{Compensator, LeadForm, LeadFrom, Memory, compe
 use crate::circuits::linear_interpolator::LinearInterpolator;
 use crate::circuits::linear_interpolator::command_source::{self, Orders};
 use crate::circuits::pulse_interpolator::{self, Group, group};
-use crate::circuits::trajectory_controller::error_feedback::FeedbackGains;
 use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::{self, TrajectoryController, controller};
 use crate::prelude::*;
@@ -181,38 +180,42 @@ impl Circuit for Machine {
     records!(In, Nothing, Net, Parts);
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
-        let (low, halt) = (Bit::low(), i.halt);
-        let enables = p.enables.settle(i.rates);
+        let In {
+            halt,
+            rates,
+            pulse,
+            lines,
+            arcs,
+            trajectory,
+            lift,
+        } = i;
+        let enables = p.enables.settle(rates);
         let period = self.pulse_interpolator.widths.period;
-        let of = i.pulse;
         let pulse = p.pulse_interpolator.settle(group::In {
-            command: of.command,
-            base: of.base,
-            last: of.last,
-            cyclic: low,
-            run: of.run,
-            now: of.now,
+            command: pulse.command,
+            base: pulse.base,
+            last: pulse.last,
+            run: pulse.run,
+            now: pulse.now,
             // Its own counter never ends a unit time: the enable does.
             period: U::new(u64::MAX.cut(period), period),
-            write_period: low,
             unit_end: enables.w.unit,
-            port: of.port,
+            port: pulse.port,
+            ..group::In::low(&self.pulse_interpolator)
         });
-        let of = i.lines;
         let lines = p.linear_interpolator.settle(command_source::In {
             scan: enables.w.scan,
-            hold: low,
             orders: Orders {
-                push: of.push,
-                target_x: of.target_x,
-                target_y: of.target_y,
-                settings: of.settings,
+                push: lines.push,
+                target_x: lines.target_x,
+                target_y: lines.target_y,
+                settings: lines.settings,
                 halt,
             },
-            clear: low,
+            ..command_source::In::low(&self.linear_interpolator)
         });
         let arcs = p.arc_generator.settle(generator::In {
-            segments: i.arcs,
+            segments: arcs,
             halt,
             sample_period: enables.w.sample_led,
         });
@@ -225,64 +228,45 @@ impl Circuit for Machine {
         });
         let widths = self.trajectory_controller.widths;
         let guarded = |counts: I| counts.resize(widths.point).shift_left(widths.guard());
-        let of = i.trajectory;
         let trajectory = p.trajectory_controller.settle(controller::In {
-            record: of.record,
-            start: of.start,
+            record: trajectory.record,
+            start: trajectory.start,
             halt,
-            restart: low,
-            path: of.path,
-            last: of.last,
-            path_end: of.path_end,
+            path: trajectory.path,
+            last: trajectory.last,
+            path_end: trajectory.path_end,
             period: enables.w.sample_led,
-            feedback_gains: FeedbackGains {
-                tangential_gain: U::new(0, widths.gain),
-                normal_gain: U::new(0, widths.gain),
-            },
-            axis_gain_1: vec![of.model_gains.gain_1; self.trajectory_controller.axes],
-            axis_gain_2: vec![of.model_gains.gain_2; self.trajectory_controller.axes],
-            model_gains: of.model_gains,
-            position_gain: of.position_gain,
-            speed_gain: of.speed_gain,
-            integral_gain: of.integral_gain,
-            inertia: of.inertia,
-            limit: of.limit,
+            axis_gain_1: vec![trajectory.model_gains.gain_1; self.trajectory_controller.axes],
+            axis_gain_2: vec![trajectory.model_gains.gain_2; self.trajectory_controller.axes],
+            model_gains: trajectory.model_gains,
+            position_gain: trajectory.position_gain,
+            speed_gain: trajectory.speed_gain,
+            integral_gain: trajectory.integral_gain,
+            inertia: trajectory.inertia,
+            limit: trajectory.limit,
             given: Bit::high(),
             given_command: vec![guarded(join.q.x), guarded(join.q.y)],
-            a: of.a,
-            b: of.b,
+            a: trajectory.a,
+            b: trajectory.b,
+            ..controller::In::low(&self.trajectory_controller)
         });
-        let of = i.lift;
         let lift = p.lead_angle.settle(compensator::In {
-            a: of.a,
-            b: of.b,
-            strobe: low,
-            code: U::new(0, self.lead_angle.widths.code),
-            secondary: low,
-            sine: I::new(0, self.lead_angle.widths.converter),
-            cosine: I::new(0, self.lead_angle.widths.converter),
-            turn: U::new(0, self.lead_angle.widths.code),
-            clear: low,
-            run: of.run,
+            a: lift.a,
+            b: lift.b,
+            run: lift.run,
             halt,
-            passing: low,
-            effect: low,
-            learn: of.learn,
-            common: low,
-            last_step: of.last_step,
+            learn: lift.learn,
+            last_step: lift.last_step,
             ck_period: enables.w.ck_led,
-            standstill: of.standstill,
-            time_out: of.time_out,
-            rest: of.rest,
-            seed: of.seed,
-            lead_parameter: U::new(0, 14),
-            gate: U::new(0, self.lead_angle.widths.cks),
-            write_target: of.write_target,
-            write_time: low,
-            write_step: of.write_step,
-            step_target: of.step_target,
-            step_speed: of.step_speed,
-            step_time: U::new(0, self.lead_angle.widths.time()),
+            standstill: lift.standstill,
+            time_out: lift.time_out,
+            rest: lift.rest,
+            seed: lift.seed,
+            write_target: lift.write_target,
+            write_step: lift.write_step,
+            step_target: lift.step_target,
+            step_speed: lift.step_speed,
+            ..compensator::In::low(&self.lead_angle)
         });
         let late = lines.w.late | arcs.w.late | trajectory.w.late | trajectory.w.profile_late;
         let lost = trajectory.w.lost[0] | trajectory.w.lost[1] | lift.w.lost;

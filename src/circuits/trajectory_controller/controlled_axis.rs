@@ -99,13 +99,12 @@ impl Circuit for ControlledAxis {
         });
         let servo = p.servo.settle(servo::In {
             step: corrector.q.fresh,
-            preset: Bit::low(),
             target: corrector.q.corrected,
             a: i.a,
             b: i.b,
-            home: Bit::low(),
             model_gains: i.model_gains,
             gains: i.gains,
+            ..servo::In::low(&self.servo)
         });
         let net = Net {
             answered: response.w.fresh,

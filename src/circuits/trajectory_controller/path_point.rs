@@ -185,10 +185,9 @@ impl Circuit for PathPoint {
         });
         let cordic = p.cordic.settle(cordic::In {
             start: p.sequencer.q.turn,
-            halt: Bit::low(),
             radius: p.sequencer.q.radius,
-            offset: I::new(0, self.cordic().radius),
             angle: measure.q.angle,
+            ..cordic::In::low(&self.cordic())
         });
         let powers = p.powers.settle(length_powers::In {
             start: p.sequencer.q.raise,
