@@ -9,12 +9,15 @@
 /// | `[U(c.width); c.count]`, `[U(c.widths[k]); k in c.count]` | an array, a `Vec` |
 /// | `Gains(&c.widths)` | a bundle: a record that is declared for the type of `c.widths`; its signals stand in a scope of its name, `as Flat` without |
 /// | `Part<Counter>(Counter { width: c.width })` | a circuit inside |
+/// | `U(c.width) if c.counts()` | an optional field of any of these, an `Option` |
 ///
 /// A record declared `for (A, B) as c;` belongs to both types; both need the fields that the
 /// widths read.
 ///
 /// A field may carry a display format (`as Hex`, `as Analog`, `as States(NAMES)`, `as
-/// Elements(NAMES)`) and a power-on value (`= 1`; 0 by default). In a `Reg` or `Net`, a `pub`
+/// Elements(NAMES)`), a condition (`if c.counts()`) and a power-on value (`= 1`; 0 by default), in
+/// this order. A condition is a field or a method of the circuit; any other stands in brackets
+/// (`if (c.width > 8)`). In a `Reg` or `Net`, a `pub`
 /// field is an output port. `pub(crate)` shows a field to proofs and tests without making it a
 /// port.
 ///
@@ -77,12 +80,16 @@ macro_rules! hdl_record {
             $(#[doc = $doc:literal])*
             $public:vis $field:ident : $kind:tt
                 $(<$($part:ident)::+>)? $(($($arg:expr),* $(,)?))?
-                $(as $format:ident $(($names:expr))?)? $(= $power_on:expr)?
+                $(as $format:ident $(($names:expr))?)?
+                $(if $of:tt $(. $member:tt $(($($given:expr),*))?)*)? $(= $power_on:expr)?
         ),* $(,)? }
     ) => {
         $($about)*
         $vis struct $name<V: $crate::hdl::View = $crate::hdl::Wire> {
-            $( $(#[doc = $doc])* $public $field: $crate::hdl_type!(V; $kind $(<$($part)::+>)?), )*
+            $(
+                $(#[doc = $doc])*
+                $public $field: $crate::hdl_type!(V; $kind $(<$($part)::+>)? $(if $of)?),
+            )*
         }
 
         impl<V: $crate::hdl::View> $crate::hdl::Walk<V> for $name<V> {
@@ -102,20 +109,22 @@ macro_rules! hdl_record {
                     V; sink;
                     $crate::hdl_field!($public $field, [$($doc)*], [$($format $(($names))?)?]);
                     (&self.$field);
-                    $kind $(<$($part)::+>)?
+                    $kind $(<$($part)::+>)? $(if $of)?
                 ); )*
                 sink.leave();
             }
 
             fn words(&self, words: &mut ::std::vec::Vec<u64>) {
                 let _ = &words;
-                $( $crate::hdl_words!(V; words; (&self.$field); $kind $(<$($part)::+>)?); )*
+                $( $crate::hdl_words!(
+                    V; words; (&self.$field); $kind $(<$($part)::+>)? $(if $of)?
+                ); )*
             }
         }
 
         impl<V: $crate::hdl::View> ::std::clone::Clone for $name<V>
         where
-            $( $crate::hdl_type!(V; $kind $(<$($part)::+>)?): ::std::clone::Clone, )*
+            $( $crate::hdl_type!(V; $kind $(<$($part)::+>)? $(if $of)?): ::std::clone::Clone, )*
         {
             fn clone(&self) -> Self {
                 $name { $( $field: ::std::clone::Clone::clone(&self.$field), )* }
@@ -124,7 +133,7 @@ macro_rules! hdl_record {
 
         impl<V: $crate::hdl::View> ::std::fmt::Debug for $name<V>
         where
-            $( $crate::hdl_type!(V; $kind $(<$($part)::+>)?): ::std::fmt::Debug, )*
+            $( $crate::hdl_type!(V; $kind $(<$($part)::+>)? $(if $of)?): ::std::fmt::Debug, )*
         {
             fn fmt(&self, f: &mut ::std::fmt::Formatter<'_>) -> ::std::fmt::Result {
                 let mut shown = f.debug_struct(stringify!($name));
@@ -146,7 +155,8 @@ macro_rules! hdl_record_for {
         $(#[doc = $doc:literal])*
         $public:vis $field:ident : $kind:tt
             $(<$($part:ident)::+>)? $(($($arg:expr),* $(,)?))?
-            $(as $format:ident $(($names:expr))?)? $(= $power_on:expr)?
+            $(as $format:ident $(($names:expr))?)?
+            $(if $of:tt $(. $member:tt $(($($given:expr),*))?)*)? $(= $power_on:expr)?
     ),* $(,)? }) => {
         impl<V: $crate::hdl::View> $crate::hdl::Record<$circuit, V> for $name<V> {
             fn make(
@@ -162,6 +172,7 @@ macro_rules! hdl_record_for {
                         $crate::hdl_field!($public $field, [$($doc)*], [$($format $(($names))?)?]);
                         [$($power_on)?];
                         $kind $(<$($part)::+>)? $(($($arg),*))?
+                        $(if $of $(. $member $(($($given),*))?)*)?
                     ), )*
                 };
                 source.leave();
@@ -183,6 +194,9 @@ macro_rules! hdl_type {
     ($v:ident; Part<$($part:ident)::+>) => { <$v as $crate::hdl::View>::Part<$($part)::+> };
     ($v:ident; [$kind:tt $(<$($part:ident)::+>)? $(($($arg:tt)*))? ; $($count:tt)+]) => {
         ::std::vec::Vec<$crate::hdl_type!($v; $kind $(<$($part)::+>)?)>
+    };
+    ($v:ident; $kind:tt $(<$($part:ident)::+>)? if $of:tt) => {
+        ::std::option::Option<$crate::hdl_type!($v; $kind $(<$($part)::+>)?)>
     };
     ($v:ident; $bundle:ident) => { $bundle<$v> };
 }
@@ -256,6 +270,19 @@ macro_rules! hdl_make {
             each
         }
     };
+    (
+        $v:ident; $source:ident; $field:expr; $power_on:tt;
+        $kind:tt $(<$($part:ident)::+>)? $(($($arg:expr),* $(,)?))? if $($condition:tt)+
+    ) => {{
+        #[allow(unused_parens)]
+        let exists: bool = $($condition)+;
+        match exists {
+            true => ::std::option::Option::Some($crate::hdl_make!(
+                $v; $source; $field; $power_on; $kind $(<$($part)::+>)? $(($($arg),*))?
+            )),
+            false => ::std::option::Option::None,
+        }
+    }};
     ($v:ident; $source:ident; $field:expr; []; $bundle:ident($of:expr)) => {
         $crate::hdl::Record::<_, $v>::make($of, $field, $source)
     };
@@ -293,6 +320,14 @@ macro_rules! hdl_visit {
             $crate::hdl_visit!($v; $sink; $field; (value); $kind $(<$($part)::+>)?);
         }
     };
+    (
+        $v:ident; $sink:ident; $field:expr; ($value:expr);
+        $kind:tt $(<$($part:ident)::+>)? if $of:tt
+    ) => {
+        if let ::std::option::Option::Some(value) = $value {
+            $crate::hdl_visit!($v; $sink; $field; (value); $kind $(<$($part)::+>)?);
+        }
+    };
     ($v:ident; $sink:ident; $field:expr; ($value:expr); $bundle:ident) => {
         $crate::hdl::Walk::<$v>::visit($value, $field, $sink)
     };
@@ -325,6 +360,13 @@ macro_rules! hdl_words {
         [$kind:tt $(<$($part:ident)::+>)? $(($($arg:tt)*))? ; $($count:tt)+]
     ) => {
         for value in $value {
+            $crate::hdl_words!($v; $words; (value); $kind $(<$($part)::+>)?);
+        }
+    };
+    (
+        $v:ident; $words:ident; ($value:expr); $kind:tt $(<$($part:ident)::+>)? if $of:tt
+    ) => {
+        if let ::std::option::Option::Some(value) = $value {
             $crate::hdl_words!($v; $words; (value); $kind $(<$($part)::+>)?);
         }
     };

@@ -57,12 +57,12 @@ fn play(axes: usize, period: u64, arcs: &[Arc]) -> (Vec<Vec<i64>>, u64) {
         if let Some(arc) = arcs.get(given).filter(|_| ready) {
             (i.order.command, i.order.units, i.order.period) = (true, arc.units, period);
             i.order.delta[..2].copy_from_slice(&arc.straight);
-            i.arcs[0] = ArcMove {
+            i.arc = Some(ArcMove {
                 circular: arc.radius > 0.0,
                 radius: (arc.radius / GAIN * (1 << GUARD) as f64).round() as u64,
                 angle: arc.angle,
                 turn: arc.turn,
-            };
+            });
             given += 1;
         }
         for axis in 0..axes {

@@ -165,8 +165,7 @@ signals! { for ArcGenerator as c;
         pub engines: [Part<DifferenceEngine>(c.widths.engine(k as u64)); k in c.engines()]
             as Elements(ENGINES),
         /// Blends and lines by products, in their place.
-        pub blend_points: [Part<BlendPoint>(c.blend_point()); usize::from(c.engines() == 0)]
-            as Elements(&["blend_point"]),
+        pub blend_point: Part<BlendPoint>(c.blend_point()) if (c.engines() == 0),
         /// Arcs.
         pub rotation: Part<Rotation>(c.rotation()),
         /// Commands of x, y and z.
@@ -232,13 +231,15 @@ impl Circuit for ArcGenerator {
             },
             halt: i.halt,
         });
-        let blend_points = settle_each(p.blend_points, |_| blend_point::In {
-            record: memory.q.record(memory.w.load_engines),
-            modulus: p.sequencer.q.modulus,
-            step: rotate & !arc,
-            halt: i.halt,
+        let point = p.blend_point.map(|part| {
+            let ports = blend_point::In {
+                record: memory.q.record(memory.w.load_engines),
+                modulus: p.sequencer.q.modulus,
+                step: rotate & !arc,
+                halt: i.halt,
+            };
+            part.settle(ports).w
         });
-        let points = blend_points.first().map(|point| &point.w);
         let rotated = rotation.w.done;
         let sequencer = p.sequencer.settle(record_sequencer::In {
             start: segments.start,
@@ -247,14 +248,14 @@ impl Circuit for ArcGenerator {
             available: memory.w.available,
             record: memory.q.record(memory.q.load),
             loaded: memory.q.loaded,
-            rotated: points.map_or(rotated, |point| rotated | point.done),
+            rotated: point.as_ref().map_or(rotated, |point| rotated | point.done),
         });
         let engines = settle_each(p.engines, |_| difference_engine::In {
             record: memory.q.record(memory.w.load_engines),
             modulus: sequencer.q.modulus,
             step: sequencer.w.advance,
         });
-        let polynomials = match points {
+        let polynomials = match point {
             Some(point) => vec![point.x, point.y, point.z],
             None => engines.iter().map(|engine| engine.w.nearest).collect(),
         };

@@ -175,9 +175,9 @@ signals! { for Compensator as c;
         /// 21.
         pub time_data: Part<TimeData>(c.time_data()),
         /// 17 or 20.
-        pub placement: [Part<LeadPlacement>(LeadPlacement {
+        pub placement: Part<LeadPlacement>(LeadPlacement {
             position: c.widths.position, placement: c.variant.placement,
-        }); usize::from(c.placed())] as Elements(&["placement"]),
+        }) if c.placed(),
         /// 19.
         pub comparator: Part<Comparator>(Comparator {
             position: c.widths.position, comparing: c.variant.comparing,
@@ -244,8 +244,7 @@ signals! { for Compensator as c;
         /// The encoder was too fast since `clear`, or its signal wrong.
         pub lost: Bit,
         /// Phase of a phase-shift detector's carrier, for the D/A converters of the primaries.
-        pub carrier: [U(c.widths.code); usize::from(c.variant.detector == Detector::PhaseShift)]
-            as Elements(&["carrier"]),
+        pub carrier: U(c.widths.code) if (c.variant.detector == Detector::PhaseShift),
     }
 }
 
@@ -321,7 +320,7 @@ impl Circuit for Compensator {
                 });
                 let w = time_lead.w;
                 // The correction counts in CKs, whatever the format of the time data.
-                lead_time = w.code.first().copied().unwrap_or(data);
+                lead_time = w.code.unwrap_or(data);
                 (w.present, w.lead, w.fresh, w.enough)
             }
             LeadPart::Speed(part) => {
@@ -346,7 +345,7 @@ impl Circuit for Compensator {
                 (w.present, w.lead, w.fresh, w.enough)
             }
         };
-        let [compared_position, compared_target] = match p.placement.into_iter().next() {
+        let [compared_position, compared_target] = match p.placement {
             Some(part) => {
                 let ports = placement::In {
                     position: present,
@@ -395,13 +394,12 @@ impl Circuit for Compensator {
         });
         let write_check = p.write_check.settle(i.step_time);
         let learned = &correction.w;
-        let learned_data = learned.learned_data.first().copied();
         let time_data = p.time_data.settle(time_data::In {
             load: sequence.load,
             step: sequence.step,
             common: i.common,
             learned: correction.w.learned,
-            learned_time: learned_data.unwrap_or(learned.learned_time),
+            learned_time: learned.learned_data.unwrap_or(learned.learned_time),
             write: i.write_time,
             write_step: i.write_step,
             write_time: write_check.divided.unwrap_or(i.step_time),

@@ -127,9 +127,9 @@ signals! { for Correction as c;
         /// 28.
         pub arithmetic: Part<CorrectionArithmetic>(c.arithmetic()),
         /// Second division, for the second order.
-        pub refinement: [Part<Refinement>(c.refinement()); usize::from(c.second_order())],
+        pub refinement: Part<Refinement>(c.refinement()) if c.second_order(),
         /// Choice of the divisor, for the exact relation.
-        pub exact_relation: [Part<ExactRelation>(c.exact_relation()); usize::from(c.exact())],
+        pub exact_relation: Part<ExactRelation>(c.exact_relation()) if c.exact(),
         /// The divider.
         pub mul_div: Part<MulDiv>(c.mul_div()),
         /// Puts the result on the grid.
@@ -144,9 +144,8 @@ signals! { for Correction as c;
         /// Δt2.
         pub learned_time: U(c.arithmetic().time()),
         /// Δt2 divided into N above Δt/N, where the time data are.
-        pub learned_data: [
-            U(grid::word(c.division, c.stages)); usize::from(c.division == Division::Beforehand)
-        ] as Elements(&["learned_data"]),
+        pub learned_data: U(grid::word(c.division, c.stages))
+            if (c.division == Division::Beforehand),
         /// Δt2 is new in this tick.
         pub learned: Bit,
         /// The correction is over, with a new time or without; one tick.
@@ -178,8 +177,10 @@ impl Circuit for Correction {
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
         let divider = &p.mul_div.q;
         let (divider_done, quotient) = (divider.done, divider.quotient);
-        let refinement = p.refinement.into_iter().next();
-        let done = refinement.as_ref().map_or(divider_done, |part| part.q.done);
+        let done = p
+            .refinement
+            .as_ref()
+            .map_or(divider_done, |part| part.q.done);
         let stop_error = p.stop_error.settle(stop_error::In {
             fire: i.fire,
             position: i.position,
@@ -205,7 +206,7 @@ impl Circuit for Correction {
             addend: w.addend,
             divisor: w.divisor,
         };
-        if let Some(part) = refinement {
+        if let Some(part) = p.refinement {
             let refined = part.settle(refinement::In {
                 start: w.divide,
                 multiplicand: w.multiplicand.resize(self.position),
@@ -225,7 +226,7 @@ impl Circuit for Correction {
                 divisor: refined.w.divide_by.resize(word),
             };
         }
-        if let Some(part) = p.exact_relation.into_iter().next() {
+        if let Some(part) = p.exact_relation {
             let exact = part.settle(exact_relation::In {
                 overrun: stop_error.w.overrun,
                 error: stop_error.w.error,
@@ -240,7 +241,7 @@ impl Circuit for Correction {
             overrun: stop_error.w.overrun,
             error: stop_error.w.error,
             learned_time: grid.code,
-            learned_data: grid.divided.into_iter().collect(),
+            learned_data: grid.divided,
             learned: arithmetic.q.learned,
             corrected: arithmetic.q.corrected,
         };

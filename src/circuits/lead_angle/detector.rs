@@ -71,19 +71,18 @@ pub(super) struct Detected {
     /// The position is wrong.
     pub(super) lost: Bit,
     /// Phase of the carrier of a phase-shift detector.
-    pub(super) carrier: Vec<U>,
+    pub(super) carrier: Option<U>,
 }
 
 impl DetectorPart {
     /// Settles it by the ports of a compensator and the CK of its counter.
     pub(super) fn detect(self, i: &In, ck: Bit) -> Detected {
         let clear = i.clear;
-        let none = Vec::new();
         let (ck, position, lost, carrier) = match self {
             DetectorPart::Incremental(part) => {
                 let (a, b) = (i.a, i.b);
                 let q = part.settle(quadrature_counter::In { a, b, clear }).q;
-                (ck, q.position, q.lost, none)
+                (ck, q.position, q.lost, None)
             }
             DetectorPart::Absolute(part) => {
                 let ports = absolute_detector::In {
@@ -93,7 +92,7 @@ impl DetectorPart {
                     clear,
                 };
                 let w = part.settle(ports).w;
-                (w.sample, w.position, w.lost, none)
+                (w.sample, w.position, w.lost, None)
             }
             DetectorPart::PhaseShift(part) => {
                 let ports = phase_detector::In {
@@ -102,7 +101,7 @@ impl DetectorPart {
                     clear,
                 };
                 let w = part.settle(ports).w;
-                (w.sample, w.position, w.lost, vec![w.phase])
+                (w.sample, w.position, w.lost, Some(w.phase))
             }
             DetectorPart::Resolver(part) => {
                 let ports = resolver_detector::In {
@@ -113,7 +112,7 @@ impl DetectorPart {
                     clear,
                 };
                 let w = part.settle(ports).w;
-                (w.sample, w.position, w.lost, none)
+                (w.sample, w.position, w.lost, None)
             }
         };
         Detected {

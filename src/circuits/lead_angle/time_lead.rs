@@ -186,8 +186,7 @@ signals! { for TimeLead as c;
         /// The history reaches back as far as the time needs.
         pub enough: Bit,
         /// Δt in CKs, of data that hold N and Δt/N.
-        pub code: [U(c.divided().time()); usize::from(c.division == Division::Beforehand)]
-            as Elements(&["code"]),
+        pub code: U(c.divided().time()) if (c.division == Division::Beforehand),
     }
 }
 
@@ -217,18 +216,15 @@ impl Circuit for TimeLead {
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
         let lead_time = i.lead_time;
-        let mut code = Vec::new();
-        let (tap, ratio) = match p.ratio_logic {
+        let (tap, ratio, code) = match p.ratio_logic {
             RatioPart::Logic(part) => {
                 let w = part.settle(ratio_logic::In { lead_time }).w;
-                (w.tap, w.ratio)
+                (w.tap, w.ratio, None)
             }
             RatioPart::Divided(part) => {
                 let w = part.settle(divided_time::In { lead_time }).w;
-                if self.division == Division::Beforehand {
-                    code.push(w.code);
-                }
-                (w.tap, w.ratio)
+                let code = (self.division == Division::Beforehand).then_some(w.code);
+                (w.tap, w.ratio, code)
             }
         };
         let ports = position_history::In {

@@ -42,6 +42,13 @@ impl Conventional {
         }
     }
 
+    const fn unit_time(&self) -> UnitTimeRegister {
+        UnitTimeRegister {
+            width: self.widths.period,
+            period: self.period,
+        }
+    }
+
     /// Circuit that makes the moves of an arc, where arcs are included.
     pub const fn circular(&self) -> CircularInterpolator {
         CircularInterpolator {
@@ -61,23 +68,18 @@ signals! { for Conventional as c;
         /// The move that is given.
         pub order: Move(&c.controller()) as Flat,
         /// Parameters of the move as an arc.
-        pub arcs: [ArcMove(&c.circular()); usize::from(c.arcs)] as Elements(&["arc"]),
+        pub arc: ArcMove(&c.circular()) if c.arcs,
     }
     /// The circuits inside.
     pub struct Parts {
         /// Unit-time register.
-        pub unit_time: Part<UnitTimeRegister>(UnitTimeRegister {
-            width: c.widths.period,
-            period: c.period,
-        }),
+        pub unit_time: Part<UnitTimeRegister>(c.unit_time()),
         /// Unit-time counter; its enable is RST.
         pub counter: Part<EnableCounter>(EnableCounter { width: c.widths.period }),
         /// Amounts of arcs.
-        pub circulars: [Part<CircularInterpolator>(c.circular()); usize::from(c.arcs)]
-            as Elements(&["interpolator"]),
+        pub interpolator: Part<CircularInterpolator>(c.circular()) if c.arcs,
         /// Their points.
-        pub cordics: [Part<Cordic>(c.circular().cordic()); usize::from(c.arcs)]
-            as Elements(&["cordic"]),
+        pub cordic: Part<Cordic>(c.circular().cordic()) if c.arcs,
         /// Motor controller 5.
         pub controller: Part<MotorController>(c.controller()),
         /// Its divider.
@@ -116,24 +118,27 @@ impl Circuit for Conventional {
             period: p.unit_time.q.active,
         });
         let unit_rst = counter.w.enable;
-        let cordics = settle_each(p.cordics, |k| cordic::In {
-            start: p.circulars[k].q.start,
-            halt: Bit::low(),
-            radius: p.circulars[k].q.wide_radius,
-            offset: I::new(0, self.circular().cordic().radius),
-            angle: p.circulars[k].q.place,
-        });
-        let circulars = settle_each(p.circulars, |k| circular_interpolator::In {
-            order: i.order.clone(),
-            arc: i.arcs[k].clone(),
-            pending: p.controller.q.pending,
-            done: cordics[k].w.done,
-            along: cordics[k].w.along,
-            across: cordics[k].w.across,
-        });
-        let arcs = circulars.first().map(|circular| &circular.w);
+        let (mut order, mut idle) = (i.order, None);
+        if let (Some(interpolator), Some(cordic), Some(arc)) = (p.interpolator, p.cordic, i.arc) {
+            let point = cordic.settle(cordic::In {
+                start: interpolator.q.start,
+                radius: interpolator.q.wide_radius,
+                angle: interpolator.q.place,
+                ..cordic::In::low(&self.circular().cordic())
+            });
+            let interpolator = interpolator.settle(circular_interpolator::In {
+                order,
+                arc,
+                pending: p.controller.q.pending,
+                done: point.w.done,
+                along: point.w.along,
+                across: point.w.across,
+            });
+            order = interpolator.w.next_order;
+            idle = Some(interpolator.w.idle);
+        }
         let controller = p.controller.settle(motor_controller::In {
-            order: arcs.map_or(i.order, |arcs| arcs.next_order.clone()),
+            order,
             unit_rst,
             done: p.divider.q.done,
             quotient: p.divider.q.quotient,
@@ -148,11 +153,10 @@ impl Circuit for Conventional {
             divisor: controller.w.divisor,
         });
         p.unit_time.settle(unit_time_register::In {
-            write: Bit::low(),
-            period: U::new(0, self.widths.period),
             unit_rst,
             take: controller.w.prepared,
             take_period: controller.q.unit_period,
+            ..unit_time_register::In::low(&self.unit_time())
         });
         let trains = settle_each(p.trains, |axis| pulse_train::In {
             load: unit_rst,
@@ -168,7 +172,7 @@ impl Circuit for Conventional {
             step: trains.iter().map(|train| train.q.step).collect(),
             dir: trains.iter().map(|train| train.q.dir).collect(),
             unit_rst,
-            ready: arcs.map_or(controller.w.ready, |arcs| arcs.idle),
+            ready: idle.unwrap_or(controller.w.ready),
             busy: controller.q.busy,
             late: controller.w.late,
         };

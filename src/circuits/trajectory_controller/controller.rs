@@ -241,8 +241,7 @@ signals! { for TrajectoryController as c;
         /// All points of a period.
         pub gather: Part<PeriodJoin>(PeriodJoin { wait: c.wait() }),
         /// Error feedback, if there is one.
-        pub feedback: [Part<ErrorFeedback>(c.feedback());
-            usize::from(c.correction == Correction::Feedback)] as Elements(&["feedback"]),
+        pub feedback: Part<ErrorFeedback>(c.feedback()) if (c.correction == Correction::Feedback),
         /// The axes.
         pub axes: [Part<ControlledAxis>(c.axis()); c.axes] as Elements(&AXIS_NAMES),
     }
@@ -340,7 +339,7 @@ impl Circuit for TrajectoryController {
         });
         let (placed, referred) = (distribution.w.points, reference_point.w.points);
         let command = |axis: usize| i.given.mux(i.given_command[axis], placed[axis]);
-        let corrects = match p.feedback.first() {
+        let corrects = match &p.feedback {
             Some(feedback) => feedback.q.done,
             None => p.gather.q.correct,
         };
@@ -349,7 +348,7 @@ impl Circuit for TrajectoryController {
             preset: p.gather.q.preset,
             command: command(axis),
             correct: corrects,
-            target: match p.feedback.first() {
+            target: match &p.feedback {
                 Some(feedback) => feedback.q.sum[axis].resize(self.widths.point),
                 None => referred[axis],
             },
@@ -367,14 +366,16 @@ impl Circuit for TrajectoryController {
                 limit: i.limit[axis],
             },
         });
-        settle_each(p.feedback, |_| error_feedback::In {
-            start: p.gather.q.correct,
-            command: (0..self.axes).map(command).collect(),
-            path: placed.clone(),
-            behind: referred.clone(),
-            position: axes.iter().map(|axis| axis.w.position).collect(),
-            gains: i.feedback_gains.clone(),
-        });
+        if let Some(part) = p.feedback {
+            part.settle(error_feedback::In {
+                start: p.gather.q.correct,
+                command: (0..self.axes).map(command).collect(),
+                path: placed,
+                behind: referred,
+                position: axes.iter().map(|axis| axis.w.position).collect(),
+                gains: i.feedback_gains,
+            });
+        }
         let gather = p.gather.settle(period_join::In {
             begins: fresh,
             held: progress.q.held,

@@ -138,8 +138,8 @@ struct Bench<'o> {
     orders: &'o [Order],
     /// Number of unit times of all moves.
     units: usize,
-    /// Value of an arc port when no move is given, if the device supports arcs.
-    no_arcs: Vec<ArcMove<Value>>,
+    /// Value of the arc port when no arc is given, if the device supports arcs.
+    no_arc: Option<ArcMove<Value>>,
     given: usize,
     /// True if a move may be given with the next tick.
     ready: bool,
@@ -173,8 +173,8 @@ impl Bench<'_> {
                 units: 0,
                 period: 0,
             };
-            let arcs = self.no_arcs.clone();
-            return (conventional::In { order, arcs }, false);
+            let arc = self.no_arc.clone();
+            return (conventional::In { order, arc }, false);
         };
         let arc = order.arc.map(|arc| ArcMove {
             circular: true,
@@ -182,14 +182,14 @@ impl Bench<'_> {
             angle: arc.angle,
             turn: arc.turn,
         });
-        let arcs = arc.map_or_else(|| self.no_arcs.clone(), |arc| vec![arc]);
+        let arc = arc.or_else(|| self.no_arc.clone());
         let order = Move {
             command: true,
             delta: order.delta[..self.axes.len()].to_vec(),
             units: order.units.into(),
             period: order.period.into(),
         };
-        (conventional::In { order, arcs }, true)
+        (conventional::In { order, arc }, true)
     }
 
     /// Records a tick; `given` is true if a move was given in it.
@@ -247,7 +247,7 @@ pub fn play(
     let mut bench = Bench {
         orders,
         units: orders.iter().map(|order| order.units as usize).sum(),
-        no_arcs: zero::<Conventional>(circuit).arcs,
+        no_arc: zero::<Conventional>(circuit).arc,
         given: 0,
         ready: true,
         axes: vec![Paced::default(); circuit.axes],

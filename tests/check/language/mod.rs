@@ -449,4 +449,5 @@ fn a_panic_of_the_circuits_own_code_is_told() {
 
 mod constants;
 mod inputs;
+mod optional;
 mod running;
