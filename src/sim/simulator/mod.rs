@@ -35,9 +35,14 @@ pub struct Simulator<C: Circuit> {
     known: Arc<Known<C>>,
     /// Buffer for input ports.
     words: Vec<u64>,
+    each: Option<EachTick<C>>,
 }
 
-/// Creates an independent copy: both continue from the same tick, each with its own inputs.
+/// Function that receives every tick.
+type EachTick<C> = Box<dyn FnMut(&Sample<'_, C>) + Send + Sync>;
+
+/// Creates an independent copy: both continue from the same tick, each with its own inputs. The
+/// copy has no [`each_tick`](Simulator::each_tick).
 // Written by hand: a derive would require `C: Clone`.
 impl<C: Circuit> Clone for Simulator<C> {
     fn clone(&self) -> Self {
@@ -47,6 +52,17 @@ impl<C: Circuit> Clone for Simulator<C> {
             settled: self.settled,
             known: self.known.clone(),
             words: Vec::new(),
+            each: None,
+        }
+    }
+}
+
+/// A tick in which a panic drops the simulator is received too.
+impl<C: Circuit> Drop for Simulator<C> {
+    fn drop(&mut self) {
+        if std::thread::panicking() && self.each.is_some() {
+            self.settle();
+            self.pass_on();
         }
     }
 }
@@ -170,6 +186,7 @@ impl<C: Circuit> Simulator<C> {
             settled: false,
             known: Arc::new(known),
             words: Vec::new(),
+            each: None,
         };
         (simulator, chosen)
     }
@@ -327,6 +344,7 @@ impl<C: Circuit> Simulator<C> {
     /// takes effect.
     pub fn reset(&mut self) {
         self.settle();
+        self.receive();
         self.engine.reset();
         self.tick += 1;
         self.settled = false;
@@ -334,9 +352,35 @@ impl<C: Circuit> Simulator<C> {
 
     #[inline]
     fn edge(&mut self) {
+        self.receive();
         self.engine.edge();
         self.tick += 1;
         self.settled = false;
+    }
+
+    /// Calls a function with every tick from this one on, settled, before its edge; also with the
+    /// tick in which a panic drops the simulator. It takes the place of an earlier function.
+    ///
+    /// Unlike an [`Observer`](super::Observer) it sees the ticks of all ways to advance, one by
+    /// one: runs do not jump over idle ticks. `trace::LastTicks` uses it.
+    pub fn each_tick(&mut self, receive: impl FnMut(&Sample<'_, C>) + Send + Sync + 'static) {
+        self.each = Some(Box::new(receive));
+    }
+
+    /// Passes this settled tick to the function that receives every tick.
+    #[inline]
+    fn receive(&mut self) {
+        if self.each.is_some() {
+            self.pass_on();
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn pass_on(&mut self) {
+        if let Some(each) = &mut self.each {
+            Sample::show(self.tick, &self.known, &self.engine, |now| each(now));
+        }
     }
 
     /// Returns an iterator that steps and yields the result of `see` for each tick; input ports

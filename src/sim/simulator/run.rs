@@ -99,7 +99,7 @@ impl<C: Circuit> Simulator<C> {
         self.settle();
         loop {
             let left = until - self.tick;
-            if jumps {
+            if jumps && self.each.is_none() {
                 let gone = self.engine.forward(left);
                 self.tick += gone;
                 if gone > 0 {
@@ -115,7 +115,12 @@ impl<C: Circuit> Simulator<C> {
                 self.edge();
                 return false;
             }
-            let most = if jumps { self.engine.pause() } else { u64::MAX };
+            let most = match self.each.is_some() {
+                true => 1,
+                false if jumps => self.engine.pause(),
+                false => u64::MAX,
+            };
+            self.receive();
             // Stops at a settled tick.
             self.tick += self.engine.advance(most.min(left - 1));
             if self.engine.has_changed() {

@@ -6,6 +6,7 @@ mod chart;
 mod dump;
 mod fst;
 mod gtkwave;
+mod last_ticks;
 mod names;
 mod reader;
 mod replay;
