@@ -1,8 +1,9 @@
 //! Arguments of `run`.
 
+use super::series::SeriesPath;
 use super::source::Input;
 use super::wave_format::Format;
-use clap::Args;
+use clap::{Args, value_parser};
 use std::path::PathBuf;
 
 /// Arguments of `run`.
@@ -17,9 +18,9 @@ pub struct Arguments {
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t)]
     pub format: Format,
     /// Writes no waves and no save file.
-    #[arg(long, conflicts_with_all = ["format", "from", "to", "only"])]
+    #[arg(long, conflicts_with_all = ["format", "only"])]
     pub no_vcd: bool,
-    /// First tick in the waves.
+    /// First tick in the waves and the series.
     #[arg(long, value_name = "TICK", allow_negative_numbers = true)]
     pub from: Option<u64>,
     /// End of the window, exclusive.
@@ -34,6 +35,19 @@ pub struct Arguments {
     /// Writes how the circuit was run, as `plan` shows it, with how often each block ran.
     #[arg(long)]
     pub plan: bool,
+    /// Writes commanded and actual positions and their difference, one row per sampling period, to
+    /// a .csv file or, for NumPy, a .npy file.
+    #[arg(long, value_name = "FILE", conflicts_with = "waves_of")]
+    pub series: Option<SeriesPath>,
+    /// Writes a row of the series every TICKS ticks instead.
+    #[arg(
+        long,
+        value_name = "TICKS",
+        requires = "series",
+        allow_negative_numbers = true,
+        value_parser = value_parser!(u64).range(1..)
+    )]
+    pub series_every: Option<u64>,
     /// Plays what the circuit is compared with too, as `--set beside=true` does.
     #[arg(long)]
     pub beside: bool,

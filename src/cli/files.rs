@@ -22,8 +22,8 @@ pub struct Files {
     exports: Vec<Export>,
     /// Another run into these files is refused.
     _claim: Option<Claim>,
-    // Last, as it can go only when the files are gone.
-    _directory: Directory,
+    // Last, as they can go only when the files are gone.
+    directories: Vec<Directory>,
 }
 
 /// A file that a command has written.
@@ -68,18 +68,26 @@ pub fn size(bytes: u64) -> String {
     }
 }
 
+/// A file that an option names, when it is refused.
+const A_FILE: &str = "a file that can be written";
+
 fn refuse(error: &io::Error) -> Failure {
-    refused(error, "a directory that can be written")
+    refused("--out", error, "a directory that can be written")
 }
 
-/// Refusal of `--out`, which is to be what is `allowed`.
-pub fn refused(error: &io::Error, allowed: &str) -> Failure {
+/// Refusal of a file that `field` names.
+pub fn refuse_file(field: &'static str, error: &io::Error) -> Failure {
+    refused(field, error, A_FILE)
+}
+
+/// Refusal of an option, whose value should be what is `allowed`.
+pub fn refused(field: &'static str, error: &io::Error, allowed: &str) -> Failure {
     let allowed = match files::too_many_open(error) {
         true => MORE_FILES,
         false => allowed,
     };
     Failure::Argument {
-        field: "--out",
+        field,
         problem: error.to_string(),
         allowed: allowed.into(),
     }
@@ -96,6 +104,13 @@ pub fn clear(directory: &Path) {
             "removed what a run that did not end by itself has left: {names}"
         ));
     }
+}
+
+/// Returns the directory of a file.
+pub fn parent(path: &Path) -> &Path {
+    let parent = path.parent();
+    let parent = parent.filter(|parent| !parent.as_os_str().is_empty());
+    parent.unwrap_or(Path::new("."))
 }
 
 impl Files {
@@ -117,7 +132,7 @@ impl Files {
             complete: Vec::new(),
             exports: Vec::new(),
             _claim: claim,
-            _directory: created,
+            directories: vec![created],
         })
     }
 
@@ -132,6 +147,14 @@ impl Files {
     /// Begins one with a name of its own.
     pub fn create_as(&self, name: &str) -> Result<AtomicFile, Failure> {
         AtomicFile::create(self.stem.with_file_name(name)).map_err(|error| refuse(&error))
+    }
+
+    /// Begins one at a path of its own, which the option `field` names.
+    pub fn create_at(&mut self, field: &'static str, path: &Path) -> Result<AtomicFile, Failure> {
+        let refuse = |error| refuse_file(field, &error);
+        let directory = Directory::create(parent(path)).map_err(refuse)?;
+        self.directories.push(directory);
+        AtomicFile::create(path).map_err(refuse)
     }
 
     /// Takes one that is complete.
@@ -168,9 +191,7 @@ impl Files {
     }
 
     fn directory(&self) -> &Path {
-        let parent = self.stem.parent();
-        let parent = parent.filter(|parent| !parent.as_os_str().is_empty());
-        parent.unwrap_or(Path::new("."))
+        parent(&self.stem)
     }
 
     /// Gives all files their final names; returns names and sizes. If one fails, none remains.
@@ -185,7 +206,8 @@ impl Files {
             export.check(self.directory())?;
         }
         let written = Written::read(&directory);
-        let ours = written.free(self.complete.iter().map(AtomicFile::path));
+        let paths = self.complete.iter().map(AtomicFile::path);
+        let ours = written.free(paths.filter(|path| parent(path) == directory));
         let named = commit_all(self.complete)?;
         written.add(&ours);
         Ok(named.iter().map(|path| Named::new(path)).collect())

@@ -19,6 +19,7 @@ Examples:
   motion-rtl run waves/turntable.toml --set detector=resolver --json
   motion-rtl run waves/pocket.ngc --set circuit=trajectory_controller --no-vcd
   motion-rtl run waves/circle.toml --format fst --from 100000 --to 200000
+  motion-rtl run waves/plotter.toml --no-vcd --series build/plotter.csv
   motion-rtl run - --input-format hpgl --no-vcd <waves/rosette.hpgl";
 
 pub const TABLE: &str = "\

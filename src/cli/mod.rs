@@ -32,6 +32,7 @@ mod pulse;
 mod report;
 mod rows;
 mod run;
+mod series;
 mod setup;
 #[cfg(feature = "shell")]
 mod shell;

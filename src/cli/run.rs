@@ -17,6 +17,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn play(arguments: &Arguments) -> Result<(), Failure> {
+    check_window(arguments)?;
     // Before the run, which may be long.
     arguments.open.then(Viewer::find).transpose()?;
     let mut input = arguments.input.clone();
@@ -24,6 +25,22 @@ fn play(arguments: &Arguments) -> Result<(), Failure> {
         .sets
         .extend(arguments.beside.then(|| BESIDE.to_owned()));
     let mut source = Source::read(&input)?;
+    if let Some(series) = &arguments.series {
+        source.spare_inputs("--series", &series.path, &input)?;
+    }
     source.compares |= arguments.waves_of.is_some();
     Job::prepare(source)?.run(arguments)
+}
+
+/// Refuses a window of nothing.
+fn check_window(arguments: &Arguments) -> Result<(), Failure> {
+    let has_window = arguments.from.is_some() || arguments.to.is_some();
+    match has_window && arguments.no_vcd && arguments.series.is_none() {
+        false => Ok(()),
+        true => Err(Failure::Argument {
+            field: "--from, --to",
+            problem: "given with --no-vcd".into(),
+            allowed: "with waves or --series".into(),
+        }),
+    }
 }

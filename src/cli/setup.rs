@@ -3,7 +3,8 @@
 use super::Failure;
 use super::arguments::Arguments;
 use motion_rtl::scenario::Loaded;
-use motion_rtl::trace::{Clock, Options};
+use motion_rtl::trace::{Clock, Options, Rows, SeriesLayout};
+use std::ops::Range;
 
 /// Arguments and scenario of a run, with the window of its waves.
 #[derive(Debug)]
@@ -49,9 +50,30 @@ impl<'a> Setup<'a> {
             no_vcd,
             verilog,
             plan,
+            ref series,
             ..
         } = *self.arguments;
-        no_vcd && !verilog && !plan
+        no_vcd && !verilog && !plan && series.is_none()
+    }
+
+    /// Returns the layout of the requested series, of which `layout` has the rows unless the
+    /// command line says otherwise.
+    pub fn series<'s>(
+        &self,
+        layout: impl FnOnce() -> SeriesLayout<'s>,
+    ) -> Option<SeriesLayout<'s>> {
+        self.arguments.series.as_ref()?;
+        let layout = layout();
+        let every = self.arguments.series_every.map(Rows::Every);
+        Some(SeriesLayout {
+            rows: every.unwrap_or(layout.rows),
+            ..layout
+        })
+    }
+
+    /// Returns the ticks that may have rows in the series: without `--to` all to the end.
+    pub fn series_ticks(&self) -> Range<u64> {
+        self.options.ticks.start..self.arguments.to.unwrap_or(u64::MAX)
     }
 
     /// Returns how many of a run's `ticks` are in the waves.

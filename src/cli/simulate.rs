@@ -7,6 +7,7 @@ use super::setup::Setup;
 use super::traces::{End, Traces};
 use motion_rtl::hdl::Circuit;
 use motion_rtl::sim::{Elaborated, Observer};
+use motion_rtl::trace::SeriesLayout;
 
 /// A circuit to be played.
 #[derive(Debug)]
@@ -19,6 +20,8 @@ pub struct Stage<'a, C> {
     pub subject: &'a str,
     /// Expected length of the run and of those beside it.
     pub work: Work,
+    /// Layout of the time series, if one is requested.
+    pub series: Option<SeriesLayout<'a>>,
 }
 
 /// Opens the requested files, announces the run and plays it. Returns what `play` returns and the
@@ -27,7 +30,7 @@ pub struct Stage<'a, C> {
 /// The files are opened first, so that errors in their options are reported at once.
 pub fn with_waves<C: Circuit, T>(
     setup: &Setup<'_>,
-    stage: &Stage<'_, C>,
+    stage: Stage<'_, C>,
     play: impl FnOnce(&mut dyn Observer<C>) -> Result<(T, End), Failure>,
 ) -> Result<(T, Files), Failure> {
     let Stage {
@@ -35,8 +38,9 @@ pub fn with_waves<C: Circuit, T>(
         model,
         subject,
         work,
-    } = *stage;
-    let mut traces = Traces::begin((model, circuit), setup, work.ticks)?;
+        series,
+    } = stage;
+    let mut traces = Traces::begin((model, circuit), setup, work.ticks, series)?;
     progress::run(subject, work, setup.in_waves(work.ticks));
     let (played, end) = play(&mut traces.observer())?;
     let files = traces.finish(model, &end)?;

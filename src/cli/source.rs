@@ -1,5 +1,6 @@
 //! Input of `run` and `table`: a scenario and its input file.
 
+use super::Failure;
 use super::given::{Format, Given};
 use super::shipped::{self, SHIPPED, Shipped};
 use clap::Args;
@@ -191,6 +192,36 @@ impl Source {
                 shipped.table(path, clock_hz)
             }
             _ => read::read_path(path, clock_hz),
+        }
+    }
+
+    /// Refuses to write over an input; `field` is the option that names the output.
+    pub fn spare_inputs(
+        &self,
+        field: &'static str,
+        output: &Path,
+        given: &Input,
+    ) -> Result<(), Failure> {
+        let Ok(output) = output.canonicalize() else {
+            // The file does not exist yet.
+            return Ok(());
+        };
+        let scenario = &self.loaded.scenario;
+        let patterns = match scenario {
+            Scenario::PulseInterpolator(keys) => &keys.settings.pattern[..],
+            _ => &[],
+        };
+        let tables = patterns.iter().map(|pattern| pattern.table.as_path());
+        let inputs = given.input.as_deref().into_iter();
+        let inputs = inputs.chain(scenario.input().map(PathBuf::as_path));
+        let mut inputs = inputs.chain(tables).flat_map(Path::canonicalize);
+        match inputs.any(|input| input == output) {
+            true => Err(Failure::Argument {
+                field,
+                problem: format!("{} is the input", output.display()),
+                allowed: "another file".into(),
+            }),
+            false => Ok(()),
         }
     }
 

@@ -12,7 +12,7 @@ use motion_rtl::jobs::pulse_interpolator::table::read::columns;
 use motion_rtl::jobs::pulse_interpolator::{AxisScaling, Ratio, Report, Scaled, Table};
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Arguments of `table`.
 #[derive(Debug, Args)]
@@ -65,10 +65,11 @@ impl From<&AxisScaling> for AxisDeviation {
 }
 
 pub fn table(arguments: &Arguments) -> Result<(), Failure> {
-    let job = Job::prepare(Source::read(&arguments.input)?, false)?;
+    let source = Source::read(&arguments.input)?;
     if let Some(path) = &arguments.out {
-        spare_inputs(path, arguments, &job)?;
+        source.spare_inputs("--out", path, &arguments.input)?;
     }
+    let job = Job::prepare(source, false)?;
     let scaled = match &arguments.scale {
         Some(text) => Some(scale(&job.table, text)?),
         None => None,
@@ -76,16 +77,12 @@ pub fn table(arguments: &Arguments) -> Result<(), Failure> {
     let table = scaled.as_ref().map_or(&job.table, |scaled| &scaled.table);
     let mut files = Vec::new();
     if let Some(path) = &arguments.out {
-        let directory = match path.parent() {
-            Some(parent) if !parent.as_os_str().is_empty() => parent,
-            _ => Path::new("."),
-        };
+        let directory = super::files::parent(path);
         super::files::clear(directory);
         let list = Written::read(directory);
         let ours = list.free([path.as_path()].into_iter());
         let written = files::write(path, csv(table));
-        let written =
-            written.map_err(|error| super::files::refused(&error, "a file that can be written"))?;
+        let written = written.map_err(|error| super::files::refuse_file("--out", &error))?;
         list.add(&ours);
         files.push(Named::new(&written));
     }
@@ -111,27 +108,6 @@ pub fn table(arguments: &Arguments) -> Result<(), Failure> {
                 .for_each(|warning| super::warn(warning));
             print(&text(&job, &output))
         }
-    }
-}
-
-/// Refuses to write over what the table is made from.
-fn spare_inputs(out: &Path, arguments: &Arguments, job: &Job) -> Result<(), Failure> {
-    let Ok(out) = out.canonicalize() else {
-        // The file does not exist yet.
-        return Ok(());
-    };
-    let scenario = arguments.input.input.as_deref();
-    let inputs = scenario.into_iter().chain([Path::new(&job.drawing.file)]);
-    match inputs
-        .flat_map(Path::canonicalize)
-        .any(|input| input == out)
-    {
-        true => Err(Failure::Argument {
-            field: "--out",
-            problem: format!("{} is the input", out.display()),
-            allowed: "another file".into(),
-        }),
-        false => Ok(()),
     }
 }
 

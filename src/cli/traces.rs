@@ -6,11 +6,14 @@ use super::export::Export;
 use super::files::Files;
 use super::plan::{Noted, of_job};
 use super::progress::Part;
+use super::series::SeriesPath;
 use super::setup::Setup;
 use motion_rtl::files::AtomicFile;
 use motion_rtl::hdl::Circuit;
 use motion_rtl::sim::{Described, Observer, RunError, Without};
-use motion_rtl::trace::{Clock, LayoutError, OutputFile, StimulusFile, WaveFile, gtkw};
+use motion_rtl::trace::{
+    Clock, LayoutError, OutputFile, SeriesFile, SeriesLayout, StimulusFile, WaveFile, gtkw,
+};
 use motion_rtl::verilog::Verilog;
 use std::io;
 use std::ops::Range;
@@ -31,6 +34,8 @@ pub struct Traces<'a> {
     outputs: Option<Without<OutputFile<AtomicFile>>>,
     /// The inputs once more, for the plan.
     noted: Option<Noted>,
+    /// Positions over time.
+    series: Option<SeriesFile<'a, AtomicFile>>,
     progress: Part,
     // Last, as their directory can go only when the files above are gone.
     files: Files,
@@ -65,6 +70,7 @@ impl<'a> Traces<'a> {
         (circuit, printed): (&impl Described, &impl Described),
         setup: &'a Setup<'a>,
         ticks: u64,
+        series: Option<SeriesLayout<'a>>,
     ) -> Result<Self, Failure> {
         let clock = setup.clock(ticks)?;
         let Setup {
@@ -85,6 +91,15 @@ impl<'a> Traces<'a> {
             true => Some(verilog(printed, clock, stem, &mut files)?).unzip(),
             false => (None, None),
         };
+        let series = match (&arguments.series, series) {
+            (Some(SeriesPath { path, format }), Some(layout)) => {
+                let hz = setup.loaded.scenario.clock_hz();
+                let file = files.create_at("--series", path)?;
+                let rows = setup.series_ticks();
+                Some(SeriesFile::new(file, *format, circuit, hz, rows, layout)?)
+            }
+            _ => None,
+        };
         Ok(Traces {
             setup,
             clock,
@@ -92,6 +107,7 @@ impl<'a> Traces<'a> {
             waves,
             stimulus: stimulus.map(Without),
             outputs: outputs.map(Without),
+            series,
             noted: arguments.plan.then(Noted::default),
             progress: Part::default(),
         })
@@ -102,7 +118,7 @@ impl<'a> Traces<'a> {
         (
             self.waves.as_mut(),
             (self.stimulus.as_mut(), self.outputs.as_mut()),
-            self.noted.as_mut(),
+            (self.noted.as_mut(), self.series.as_mut()),
             &mut self.progress,
         )
     }
@@ -141,6 +157,9 @@ impl<'a> Traces<'a> {
             let save =
                 gtkw::save_file_with(circuit, self.clock, options, &dump, window, focus.overview);
             self.files.write("gtkw", &save.map_err(io::Error::from)?)?;
+        }
+        if let Some(series) = self.series {
+            self.files.push(series.finish()?);
         }
         Ok(self.files)
     }

@@ -65,8 +65,9 @@ impl<'a> System<'a> {
                     runs: 1,
                     seconds: ticks as f64 * TICK_S,
                 },
+                series: None,
             };
-            let (ending, files) = with_waves(setup, &stage, |observer| {
+            let (ending, files) = with_waves(setup, stage, |observer| {
                 let ending = play(&circuit, observer)?;
                 let end = ending.end;
                 Ok((ending, end))

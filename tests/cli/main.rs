@@ -44,6 +44,7 @@ mod readme;
 mod refusals;
 mod runs;
 mod scenarios;
+mod series;
 mod settings;
 #[cfg(unix)]
 mod signals;

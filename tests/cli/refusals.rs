@@ -264,6 +264,6 @@ fn arguments_that_exclude_each_other_or_are_no_numbers_exit_with_2() {
         assert_eq!(bench.names(), ["p.hpgl"], "{arguments:?}");
     }
     let done = bench.run(&["run", "p.hpgl", "--no-vcd", "--from", "3"]);
-    let first = "error: the argument '--no-vcd' cannot be used with '--from <TICK>'\n";
+    let first = "error: --from, --to: given with --no-vcd; allowed: with waves or --series\n";
     assert!(done.stderr.starts_with(first), "{}", done.stderr);
 }

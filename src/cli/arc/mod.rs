@@ -18,19 +18,21 @@ mod waves;
 pub use job::Job;
 pub use waves::systems;
 
-use super::Failure;
 use super::arguments::Arguments;
 use super::progress::{self, Work};
 use super::report::conclude;
 use super::setup::Setup;
 use super::simulate::{Stage, with_waves};
 use super::traces::{End, Focus};
+use super::{Failure, series};
 use beside::Beside;
 use figures::UnderWay;
 use motion_rtl::circuits::arc_generator::ArcGenerator;
+use motion_rtl::input::COORDINATES;
 use motion_rtl::jobs::arc_generator::conventional::Conventional as Method;
 use motion_rtl::jobs::arc_generator::job::{Command, Played, arc_generator, play_each};
 use motion_rtl::sim::{Observer, RunError};
+use motion_rtl::trace::{Position, SeriesLayout, SeriesPlan};
 use picture::draw;
 use summary::Summary;
 
@@ -81,8 +83,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
             runs: 1,
             seconds: job.prepared.samples() as f64 * SAMPLE_S,
         },
+        series: setup.series(|| series_of(job)),
     };
-    let ((played, mut figures), mut files) = with_waves(&setup, &stage, |observer| {
+    let ((played, mut figures), mut files) = with_waves(&setup, stage, |observer| {
         let mut under_way = UnderWay::new(job);
         let each = &mut |command| under_way.take(command);
         let played = play(job, &circuit, observer, each)?;
@@ -122,5 +125,29 @@ fn window(job: &Job, action: u64, overview: &'static [&'static str]) -> Focus {
         before: shown / 2,
         shown,
         overview,
+    }
+}
+
+/// The time series: exact points and commands at each sample.
+fn series_of(job: &Job) -> SeriesLayout<'_> {
+    let strobe = "sampled";
+    let per_mm = job.settings.counts_per_mm;
+    let last = job.prepared.samples().saturating_sub(1);
+    let exact = move |samples: u64| {
+        let point = job.prepared.point(samples.saturating_sub(1).min(last));
+        let point = point.unwrap_or([f64::NAN; COORDINATES]);
+        point.map(|mm| mm * per_mm).to_vec()
+    };
+    let axis = |(axis, name)| {
+        let exact = Position::Planned { plan: 0, axis };
+        series::axis(name, "counts", exact, series::word(name))
+    };
+    let axes = waves::NAMES.into_iter().enumerate().map(axis);
+    SeriesLayout {
+        plans: vec![SeriesPlan {
+            clock: strobe.to_owned(),
+            at: Box::new(exact),
+        }],
+        ..series::layout(series::at(strobe, job.sample_ticks.into()), axes)
     }
 }

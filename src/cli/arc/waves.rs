@@ -32,7 +32,7 @@ const CONVENTIONAL_OVERVIEW: [&str; 12] = [
 ];
 
 /// Names of the coordinates.
-const NAMES: [&str; COORDINATES] = ["x", "y", "z"];
+pub const NAMES: [&str; COORDINATES] = ["x", "y", "z"];
 
 /// The systems of the summary. Each has two names in it: of its method and of its circuit.
 pub fn systems(job: &Job) -> Vec<System<'_>> {

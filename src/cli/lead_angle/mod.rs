@@ -11,18 +11,18 @@ pub mod waves;
 
 pub use job::Job;
 
-use super::Failure;
 use super::arguments::Arguments;
 use super::progress::{self, Part, Work};
 use super::report::conclude;
 use super::setup::Setup;
 use super::simulate::{Stage, with_waves};
-use super::threads;
 use super::traces::{End, Focus};
+use super::{Failure, series, threads};
 use motion_rtl::jobs::lead_angle::job::{Played, play, positioner};
 use motion_rtl::jobs::lead_angle::settings::{History, LeadBy, Settings};
 use motion_rtl::plant::waves::Body;
 use motion_rtl::sim::{Elaborated, RunError};
+use motion_rtl::trace::{Position, SeriesLayout};
 use rayon::prelude::*;
 use summary::Summary;
 use systems::{NONE, System, systems};
@@ -87,8 +87,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
             runs,
             seconds: ticks as f64 * runs as f64 * TICK_S,
         },
+        series: setup.series(|| series_of(settings)),
     };
-    let (own, mut files) = with_waves(&setup, &stage, |observer| {
+    let (own, mut files) = with_waves(&setup, stage, |observer| {
         let played = play(&circuit, settings, observer)?;
         let end = end(settings, &played);
         Ok((played, end))
@@ -145,4 +146,14 @@ fn focus(settings: &Settings, action: u64) -> Focus {
             LeadBy::Speed | LeadBy::Table => &OVERVIEW_BY_SPEED,
         },
     }
+}
+
+/// The time series: target and body at each CK. The target's word counts turns over.
+fn series_of(settings: &Settings) -> SeriesLayout<'static> {
+    let target = Position::Nearest {
+        path: "target".to_owned(),
+    };
+    let rows = series::at("ck", settings.ck_ticks.into());
+    let body = series::axis("body", "counts", target, series::plant("position"));
+    series::layout(rows, [body])
 }

@@ -17,7 +17,7 @@ use super::setup::Setup;
 use super::simulate::{Stage, with_waves};
 use super::traces::{End, Focus};
 use super::waves_of::{Ending, System};
-use super::{Failure, threads};
+use super::{Failure, series, threads};
 use job::Other;
 use motion_rtl::circuits::linear_interpolator::Controller;
 use motion_rtl::jobs::linear_interpolator::job::{conventional, play_each, plotter};
@@ -27,6 +27,7 @@ use motion_rtl::jobs::linear_interpolator::targets::Target;
 use motion_rtl::jobs::linear_interpolator::ways::Way;
 use motion_rtl::plant::waves::Axes;
 use motion_rtl::sim::{Elaborated, Observer, RunError};
+use motion_rtl::trace::SeriesLayout;
 use picture::draw;
 use runs::{Run, Runs, UnderWay};
 use std::thread;
@@ -82,8 +83,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
             runs,
             seconds: ticks as f64 * runs as f64 * TICK_S,
         },
+        series: setup.series(|| series_of(&job.settings)),
     };
-    let (runs, mut files) = with_waves(&setup, &stage, |observer| {
+    let (runs, mut files) = with_waves(&setup, stage, |observer| {
         let (targets, settings) = (&job.compiled.targets, &job.settings);
         let mut own = || play_system(&circuit, job, targets, settings, observer);
         let runs = match &job.other {
@@ -162,6 +164,17 @@ fn end(settings: &Settings, ticks: u64, begun: u64, overview: &'static [&'static
         overview,
     };
     End { ticks, focus }
+}
+
+/// The time series: commands and motors at each scan.
+fn series_of(settings: &Settings) -> SeriesLayout<'static> {
+    let rows = series::at("scan", settings.scan_ticks.into());
+    let axis = |name| {
+        let command = series::word(format!("command_{name}"));
+        let motor = series::plant(&format!("{name}.position"));
+        series::axis(name, "counts", command, motor)
+    };
+    series::layout(rows, AXIS_NAMES.map(axis))
 }
 
 /// The systems of the summary.

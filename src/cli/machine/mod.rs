@@ -10,7 +10,6 @@ mod verdict;
 
 pub use job::Job;
 
-use super::Failure;
 use super::arguments::Arguments;
 use super::progress::{self, Work};
 use super::report::conclude;
@@ -18,6 +17,7 @@ use super::setup::Setup;
 use super::simulate::{Stage, with_waves};
 use super::traces::{End, Focus};
 use super::waves_of::{Ending, System};
+use super::{Failure, series};
 use motion_rtl::circuits::machine::Machine;
 use motion_rtl::hdl::Circuit;
 use motion_rtl::jobs::machine::Settings;
@@ -25,6 +25,7 @@ use motion_rtl::jobs::machine::job::{Played, machine, play_each};
 use motion_rtl::jobs::machine::waves::Plants;
 use motion_rtl::plan::Plan;
 use motion_rtl::sim::{Elaborated, Observer, RunError};
+use motion_rtl::trace::{Position, SeriesLayout, SeriesPlan};
 use runs::UnderWay;
 use summary::Summary;
 
@@ -84,8 +85,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
             runs: 1,
             seconds: ticks as f64 * TICK_S,
         },
+        series: setup.series(|| series_of(job, &plan)),
     };
-    let (run, mut files) = with_waves(&setup, &stage, |observer| {
+    let (run, mut files) = with_waves(&setup, stage, |observer| {
         let mut run = UnderWay::new(job, &plan);
         let each = &mut |event| run.take(event);
         let played = play_each(&circuit, program, settings, observer, each)?;
@@ -112,6 +114,49 @@ fn end(settings: &Settings, played: &Played) -> End {
     End {
         ticks: played.ticks,
         focus,
+    }
+}
+
+/// The time series: commands and motors of the servos, plan and steps of the steppers, target and
+/// position of the pen lift, at each sampling time of the servos.
+fn series_of<'a>(job: &'a Job, plan: &'a Plan<'a>) -> SeriesLayout<'a> {
+    let settings = &job.settings;
+    let starts = job.program.report.axes.iter();
+    let starts: Vec<_> = starts.map(|axis| f64::from(axis.start_position)).collect();
+    let mut sampler = plan.sampler();
+    let planned = move |ticks: u64| {
+        let at = sampler.at(ticks as f64 / settings.clock_hz as f64).position;
+        let steps = at.into_iter().zip(settings.steps_per_mm).zip(&starts);
+        steps
+            .map(|((mm, per_mm), start)| mm * per_mm - start)
+            .collect()
+    };
+    let servo = |name| {
+        let command = series::word(format!("command_join.{name}"));
+        let motor = series::plant(&format!("servo_{name}.position"));
+        series::axis(name, "counts", command, motor)
+    };
+    let stepper = |(axis, name)| {
+        let name = format!("stepper_{name}");
+        let steps = series::word(format!("plant.{name}"));
+        series::axis(&name, "steps", Position::Planned { plan: 0, axis }, steps)
+    };
+    let target = Position::Nearest {
+        path: "lead_angle.target".to_owned(),
+    };
+    let lift = series::axis("lift", "counts", target, series::plant("lift.position"));
+    let names = ["x", "y"];
+    let servos = names.into_iter().map(servo);
+    let steppers = names.into_iter().enumerate().map(stepper);
+    // The work of a sampling time may take more or fewer ticks than that of the one before.
+    let apart = u64::from(settings.sample_ticks) / 2;
+    let rows = series::at("trajectory_controller.x.driven", apart);
+    SeriesLayout {
+        plans: vec![SeriesPlan {
+            clock: "pulse_busy".to_owned(),
+            at: Box::new(planned),
+        }],
+        ..series::layout(rows, servos.chain(steppers).chain([lift]))
     }
 }
 

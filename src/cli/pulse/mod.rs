@@ -6,6 +6,7 @@ mod job;
 pub mod patterns;
 mod picture;
 mod rates;
+mod series;
 mod summary;
 mod text;
 mod verdict;
@@ -30,7 +31,10 @@ use motion_rtl::jobs::pulse_interpolator::job::{
 };
 use motion_rtl::jobs::pulse_interpolator::motors::Motors;
 use motion_rtl::jobs::pulse_interpolator::{ControlComputer, Table};
+use motion_rtl::plan::Plan;
+
 use motion_rtl::sim::Observer;
+use motion_rtl::trace::SeriesPlan;
 use picture::{Following, draw};
 use summary::Summary;
 
@@ -69,9 +73,17 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let setup = Setup::new(arguments, &job.loaded, &job.stem)?;
     let group = group(&job.table, job.variant.into());
     let mut computer = ControlComputer::new(&group, &job.table);
+    let path = arguments.series.as_ref().map(|_| {
+        let path = Plan::new(&job.drawing, &job.settings.motion);
+        path.map_err(|error| Failure::Check(error.to_string()))
+    });
+    let path = path.transpose()?;
+    let plan = path.as_ref().map(|path| series::of_path(job, path));
+    let plan = plan.transpose();
     let (played, mut files) = play_table(
         &setup,
         (&group, &job.table),
+        plan.map_err(|error| Failure::Check(error.to_string()))?,
         (&mut |pending| computer.drive(pending), job.motors.clone()),
         true,
     )?;
@@ -109,6 +121,7 @@ fn has_no_segments(arguments: &Arguments) -> Result<(), Failure> {
 fn play_table(
     setup: &Setup<'_>,
     (group, table): (&Group, &Table),
+    plan: Option<SeriesPlan<'_>>,
     (computer, motors): (&mut Computer<'_>, Option<Motors>),
     skips: bool,
 ) -> Result<(Played, Files), Failure> {
@@ -126,8 +139,10 @@ fn play_table(
                 false => ticks as f64 * TICK_S,
             },
         },
+        series: plan
+            .and_then(|plan| setup.series(|| series::of_group(group.axes, motors.is_some(), plan))),
     };
-    with_waves(setup, &stage, |observer| {
+    with_waves(setup, stage, |observer| {
         let played = match idle {
             true => fast_forward_by(group, table, computer, observer)?,
             false => play_on(group, table, (computer, motors), observer)?,

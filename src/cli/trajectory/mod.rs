@@ -17,7 +17,7 @@ use super::setup::Setup;
 use super::simulate::{Stage, with_waves};
 use super::traces::{End, Focus};
 use super::waves_of::{Ending, System};
-use super::{Failure, threads};
+use super::{Failure, series, threads};
 use motion_rtl::circuits::trajectory_controller::TrajectoryController;
 use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use motion_rtl::jobs::JobError;
@@ -26,7 +26,9 @@ use motion_rtl::jobs::trajectory_controller::program::Program;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
 use motion_rtl::plant::TwoMassAxis;
 use motion_rtl::plant::waves::Machine;
+
 use motion_rtl::sim::{Elaborated, Observer, RunError};
+use motion_rtl::trace::SeriesLayout;
 use picture::draw;
 use runs::{FULL_FEED, IN_MOTION, Run, Runs, UnderWay};
 use std::thread;
@@ -92,8 +94,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
             runs,
             seconds: ticks as f64 * runs as f64 * TICK_S,
         },
+        series: setup.series(|| series_of(job, &circuit)),
     };
-    let (runs, mut files) = with_waves(&setup, &stage, |observer| {
+    let (runs, mut files) = with_waves(&setup, stage, |observer| {
         let mut own = || {
             let (run, played) = play_path(job, &job.program, traced, observer)?;
             let begun = run.as_ref().map_or(played.start, |run| run.in_motion);
@@ -198,6 +201,21 @@ fn end(program: &Program, played: &Played, action: u64) -> End {
         ticks: played.ticks,
         focus,
     }
+}
+
+/// The time series: path points and motors in each period, when the motors are compared with their
+/// models.
+fn series_of(job: &Job, circuit: &TrajectoryController) -> SeriesLayout<'static> {
+    // A period's work may take more or fewer ticks than that of the period before.
+    let apart = u64::from(job.program.period_ticks) / 2;
+    let rows = series::at("x.servo.model.fresh", apart);
+    let scale = (-(circuit.widths.guard() as f64)).exp2();
+    let axis = |name: &&str| {
+        let command = series::scaled(format!("distribution.{name}.point"), scale);
+        let motor = series::plant(&format!("{name}.position"));
+        series::axis(name, "counts", command, motor)
+    };
+    series::layout(rows, AXIS_NAMES[..job.axes()].iter().map(axis))
 }
 
 /// The systems of the summary: every correction, and the vector at full feed.

@@ -17,7 +17,7 @@ pub mod table;
 pub use control_computer::ControlComputer;
 pub use stored::{Rewrite, Stored, StoredError};
 pub use table::{
-    AxisReport, AxisScaling, CountTable, FollowingError, PulseLimits, Ratio, Remedy, Report,
-    Scaled, Settings, StepTiming, Table, TableError, UnitDemand, UnitErrors, Word, compile,
+    AxisReport, AxisScaling, CountTable, FollowingError, PathSteps, PulseLimits, Ratio, Remedy,
+    Report, Scaled, Settings, StepTiming, Table, TableError, UnitDemand, UnitErrors, Word, compile,
     compile_unfollowed, demanded, follow,
 };

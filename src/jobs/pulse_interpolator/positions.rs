@@ -1,6 +1,7 @@
 //! Positions at the end of every unit time of a table.
 
 use super::Table;
+use super::table::UnitWords;
 use crate::circuits::pulse_interpolator::AXES_MAX;
 use crate::circuits::pulse_interpolator::counts::pulses;
 use crate::jobs::pulse_interpolator::Word;
@@ -68,9 +69,58 @@ impl Positions {
     }
 }
 
+/// Positions of a table over time, in steps from the axes' start: each axis moves uniformly through
+/// each unit time.
+pub struct TableSteps<'t> {
+    units: Box<dyn Iterator<Item = (u32, UnitWords)> + 't>,
+    axes: usize,
+    /// Current unit time, and the tick of its begin.
+    unit: Option<(u32, UnitWords)>,
+    begun: u64,
+    /// Positions at its begin.
+    at: [i64; AXES_MAX],
+}
+
+impl<'t> TableSteps<'t> {
+    /// Creates the positions of a table.
+    #[must_use]
+    pub fn new(table: &'t Table) -> Self {
+        let mut units = Box::new(table.iter());
+        TableSteps {
+            unit: units.next(),
+            units,
+            axes: table.axes(),
+            begun: 0,
+            at: [0; AXES_MAX],
+        }
+    }
+
+    /// Returns the positions after this number of ticks, which must not decrease from call to
+    /// call.
+    pub fn at(&mut self, ticks: u64) -> Vec<f64> {
+        while let Some((period, words)) = &self.unit
+            && ticks.saturating_sub(self.begun) >= u64::from(*period)
+        {
+            for (at, word) in self.at.iter_mut().zip(words.iter()) {
+                *at += steps_of(*word, *period);
+            }
+            self.begun += u64::from(*period);
+            self.unit = self.units.next();
+        }
+        let mut at: Vec<_> = self.at[..self.axes].iter().map(|at| *at as f64).collect();
+        if let Some((period, words)) = &self.unit {
+            let share = (ticks.saturating_sub(self.begun)) as f64 / f64::from(*period);
+            for (at, word) in at.iter_mut().zip(words.iter()) {
+                *at += share * steps_of(*word, *period) as f64;
+            }
+        }
+        at
+    }
+}
+
 /// Positions that are being recorded.
 pub(super) struct Counted<'t> {
-    units: Box<dyn Iterator<Item = (u32, super::table::UnitWords)> + 't>,
+    units: Box<dyn Iterator<Item = (u32, UnitWords)> + 't>,
     /// Position of each axis at the end of the unit time before.
     before: [i64; AXES_MAX],
     pub(super) positions: Positions,

@@ -3,7 +3,7 @@
 mod picture;
 mod text;
 
-use super::{Job, focus};
+use super::{Job, focus, series_of};
 use crate::cli::Failure;
 use crate::cli::progress::{self, Work};
 use crate::cli::report::{Outcome, conclude};
@@ -85,8 +85,9 @@ pub fn run(setup: &Setup<'_>, job: &Job, log: &PositionLog) -> Result<(), Failur
             runs: 1,
             seconds: ticks as f64 * super::TICK_S,
         },
+        series: setup.series(|| series_of(&settings)),
     };
-    let (replayed, mut files) = with_waves(setup, &stage, |observer| {
+    let (replayed, mut files) = with_waves(setup, stage, |observer| {
         let replayed = replay(&circuit, &settings, log, observer)?;
         let end = end(&settings, &replayed);
         Ok((replayed, end))

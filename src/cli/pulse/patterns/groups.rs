@@ -7,6 +7,7 @@ use crate::cli::arguments::Arguments;
 use crate::cli::progress::Work;
 use crate::cli::pulse::by_axis::ByAxis;
 use crate::cli::pulse::has_no_segments;
+use crate::cli::pulse::series::of_groups;
 use crate::cli::pulse::waves::ending;
 use crate::cli::report::{Outcome, Report, conclude};
 use crate::cli::setup::Setup;
@@ -24,6 +25,7 @@ use motion_rtl::picture::{Curve, Panel, Picture, Points};
 use motion_rtl::scenario::Loaded;
 use motion_rtl::scenario::pulse_interpolator::{GroupKeys, Settings};
 use motion_rtl::sim::{Elaborated, Observer, RunError};
+use motion_rtl::trace::SeriesLayout;
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -38,6 +40,9 @@ const LATEST_COMMAND: u64 = 1_000_000_000_000;
 
 /// Names of the groups.
 const NAMES: [&str; 2] = ["first", "second"];
+
+/// Scopes of their signals.
+const SCOPES: [&str; 2] = ["of_first.", "of_second."];
 
 /// Names of their axes among those of both.
 const AXES: [[&str; 8]; 2] = [
@@ -221,6 +226,12 @@ pub fn systems(job: &Job) -> Vec<System<'_>> {
     vec![System::new(Groups::NAME, ticks(job), make)]
 }
 
+/// The time series: the tables of both groups and their steps.
+fn series_of(job: &Job) -> SeriesLayout<'_> {
+    let groups = SCOPES.into_iter().zip(&job.members).zip(&AXES);
+    of_groups(groups.map(|((scope, member), names)| (scope, &member.stored.played, &names[..])))
+}
+
 /// Has both groups play.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     has_no_segments(arguments)?;
@@ -236,8 +247,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
             runs: 1,
             seconds: ticks as f64 * TICK_S,
         },
+        series: setup.series(|| series_of(job)),
     };
-    let (played, mut files) = with_waves(&setup, &stage, |observer| {
+    let (played, mut files) = with_waves(&setup, stage, |observer| {
         let played = play(&circuit, &job.members, observer)?;
         let end = end(job, &played);
         Ok((played, end))

@@ -3,6 +3,7 @@
 pub mod groups;
 mod summary;
 
+use super::series::of_table;
 use super::{has_no_segments, own, play_table};
 use crate::cli::Failure;
 use crate::cli::arguments::Arguments;
@@ -216,6 +217,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let (played, mut files) = play_table(
         &setup,
         (&stored.group, &stored.played),
+        Some(of_table(&stored.played, "")),
         (&mut stored.computer(), job.motors.clone()),
         stored.writes.is_empty(),
     )?;

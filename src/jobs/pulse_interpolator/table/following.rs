@@ -8,6 +8,7 @@ use super::words::{Table, Word};
 use crate::input::{COORDINATES, Drawing};
 use crate::jobs::pulse_interpolator::positions::Positions;
 use crate::plan::Plan;
+use std::array::from_fn;
 
 /// Errors of a completed unit time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +40,39 @@ pub struct UnitDemand {
     pub exact: [f64; COORDINATES],
     /// Position rounded to the nearest step.
     pub rounded: [i64; COORDINATES],
+}
+
+/// Positions of a path over time, in steps from the axes' start.
+#[derive(Debug)]
+pub struct PathSteps<'p, 'd> {
+    demands: Demands<'p, 'd>,
+    start: Demand,
+}
+
+impl<'p, 'd> PathSteps<'p, 'd> {
+    /// Creates the positions of a planned drawing.
+    ///
+    /// # Errors
+    /// Returns a [`TableError`] if a position does not fit.
+    pub fn new(plan: &'p Plan<'d>, settings: &Settings) -> Result<Self, TableError> {
+        let mut demands = Demands::new(plan, settings);
+        let start = demands.at(0)?;
+        Ok(PathSteps { demands, start })
+    }
+
+    /// Returns the exact position after this number of ticks; 0 for axes that are not driven.
+    ///
+    /// # Errors
+    /// Returns a [`TableError`] if the position does not fit.
+    pub fn at(&mut self, ticks: u64) -> Result<[f64; COORDINATES], TableError> {
+        let demand = self.demands.at(ticks)?;
+        Ok(from_fn(|axis| self.relative(&demand, axis)))
+    }
+
+    fn relative(&self, demand: &Demand, axis: usize) -> f64 {
+        let begun = Steps::from_num(self.start.rounded(axis));
+        (demand.steps[axis] - begun).to_num()
+    }
 }
 
 /// Comparison of demand and position over a run, unit after unit.
@@ -203,21 +237,19 @@ pub fn demanded(
     units: usize,
 ) -> Result<Vec<UnitDemand>, TableError> {
     let plan = Plan::new(drawing, &settings.motion)?;
-    let mut demands = Demands::new(&plan, settings);
-    let start = demands.at(0)?;
+    let mut path = PathSteps::new(&plan, settings)?;
     let mut ticks = 0;
     let each = table.iter().take(units).map(|(period, _)| {
         ticks += u64::from(period);
-        let demand = demands.at(ticks)?;
+        let demand = path.demands.at(ticks)?;
         let mut unit = UnitDemand {
             period,
             exact: [0.0; COORDINATES],
             rounded: [0; COORDINATES],
         };
         for axis in 0..table.axes() {
-            let begun = start.rounded(axis);
-            unit.exact[axis] = (demand.steps[axis] - Steps::from_num(begun)).to_num();
-            unit.rounded[axis] = demand.rounded(axis) - begun;
+            unit.exact[axis] = path.relative(&demand, axis);
+            unit.rounded[axis] = demand.rounded(axis) - path.start.rounded(axis);
         }
         Ok(unit)
     });

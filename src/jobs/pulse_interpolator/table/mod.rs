@@ -20,7 +20,7 @@ mod words;
 pub use compile::{compile, compile_unfollowed};
 pub use count_table::{CountTable, Offer, PulseLimits, choose_half_period};
 pub use error::TableError;
-pub use following::{UnitDemand, UnitErrors, demanded, follow};
+pub use following::{PathSteps, UnitDemand, UnitErrors, demanded, follow};
 pub use packed::UnitWords;
 pub use report::{AxisReport, FollowingError, Remedy, Report};
 pub use scale::{AxisScaling, Ratio, Scaled};
