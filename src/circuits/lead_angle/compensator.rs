@@ -14,19 +14,19 @@
 //!
 //! The position comes from an incremental encoder, or from a detector of places in a turn or a
 //! pitch whose clock is CK. The lead comes from the time Δt, with the history as a shift register
-//! or as a RAM, in any of the equal [forms](LeadForm), or from the speed as in Fig. 7, by a
+//! or as a RAM, in any of the equal [forms](super::LeadForm), or from the speed as in Fig. 7, by a
 //! parameter or a memory. `brake` is the control signal; it holds from the crossing through the
 //! rest up to the next step. With `passing` the body does not stop, and `operate` is the control
 //! signal in place of `brake`: for an operation that is complete with its `effect`.
 
 use super::detector::{Detected, DetectorPart, DetectorSource};
 use super::grid::{self, Grid, GridPart};
-use super::lead_source::{LeadForm, LeadFrom, LeadPart, LeadSource};
+use super::lead_source::{LeadFrom, LeadIn, LeadPart, LeadSource};
 use super::{
-    Comparator, CompletionDetector, Correction, Detector, Form, LeadPlacement, Memory, Placement,
-    SpeedLead, StepSequencer, TableLead, TargetSetter, TimeData, TouchProbe, Variant, Widths,
-    comparator, completion_detector, correction, placement, speed_lead, step_sequencer, table_lead,
-    target_setter, time_data, time_lead, touch_probe,
+    Comparator, CompletionDetector, Correction, Detector, Form, LeadPlacement, Placement,
+    StepSequencer, TargetSetter, TimeData, TouchProbe, Variant, Widths, comparator,
+    completion_detector, correction, placement, step_sequencer, target_setter, time_data,
+    touch_probe,
 };
 use crate::circuits::blocks::{EnableCounter, enable_counter};
 use crate::prelude::*;
@@ -48,42 +48,14 @@ pub struct Compensator {
 }
 
 impl Compensator {
-    fn lead_source(&self) -> LeadSource {
-        let Widths {
-            stages,
-            position,
-            cks: gate,
-            ..
-        } = self.widths;
-        match &self.lead_from {
-            LeadFrom::Time { memory, form } => {
-                LeadSource::Time(form.time_lead(*memory, stages, position))
-            }
-            LeadFrom::Speed => LeadSource::Speed(SpeedLead { position, gate }),
-            LeadFrom::Table(table) => LeadSource::Table(TableLead {
-                position,
-                gate,
-                table: table.clone(),
-            }),
-        }
-    }
-
-    /// The form of its lead of a time; of another lead that of the figures.
-    fn form(&self) -> LeadForm {
-        match self.lead_from {
-            LeadFrom::Time { form, .. } => form,
-            _ => LeadForm::default(),
-        }
-    }
-
     /// The products are the place itself, on which no lead is put any more.
     fn placed(&self) -> bool {
-        self.form().form() != Form::Products
+        self.lead_from.form().form() != Form::Products
     }
 
     /// 21.
     fn time_data(&self) -> TimeData {
-        let (division, stages) = (self.form().division(), self.widths.stages);
+        let (division, stages) = (self.lead_from.form().division(), self.widths.stages);
         let (step, time) = (self.widths.step, grid::word(division, stages));
         let data = self
             .rom
@@ -165,13 +137,13 @@ signals! { for Compensator as c;
         /// 10.
         pub detector: DetectorPart(&DetectorSource::of(c.variant.detector, &c.widths)),
         /// Lead, by time or by speed.
-        pub lead_source: LeadPart(&c.lead_source()),
+        pub lead_source: LeadPart(&LeadSource::of(&c.lead_from, &c.widths)),
         /// 18.
         pub target_setter: Part<TargetSetter>(TargetSetter {
             step: c.widths.step, position: c.widths.position, speed: c.widths.speed,
         }),
         /// Check that a written time is on the grid.
-        pub write_check: GridPart(&Grid::of(c.form().division(), c.widths.stages)),
+        pub write_check: GridPart(&Grid::of(c.lead_from.form().division(), c.widths.stages)),
         /// 21.
         pub time_data: Part<TimeData>(c.time_data()),
         /// 17 or 20.
@@ -191,7 +163,7 @@ signals! { for Compensator as c;
         /// 23.
         pub correction: Part<Correction>(Correction {
             stages: c.widths.stages, position: c.widths.position, sign: c.variant.sign,
-            function: c.variant.function, division: c.form().division(),
+            function: c.variant.function, division: c.lead_from.form().division(),
         }),
         /// The steps.
         pub sequencer: Part<StepSequencer>(StepSequencer {
@@ -254,32 +226,11 @@ impl Circuit for Compensator {
     records!(In, Nothing, Net, Parts);
 
     fn name(&self) -> &'static str {
-        match self.lead_from {
-            LeadFrom::Time {
-                memory: Memory::ShiftRegister,
-                ..
-            } => Self::NAME,
-            LeadFrom::Time {
-                memory: Memory::Ram,
-                ..
-            } => "ram_compensator",
-            LeadFrom::Speed | LeadFrom::Table(_) => "conventional_compensator",
-        }
+        self.lead_from.compensator().0
     }
 
     fn about(&self) -> &'static str {
-        match self.lead_from {
-            LeadFrom::Time {
-                memory: Memory::ShiftRegister,
-                ..
-            } => Self::ABOUT,
-            LeadFrom::Time {
-                memory: Memory::Ram,
-                ..
-            } => "lead-angle compensator with its history in a RAM",
-            LeadFrom::Speed => "compensator whose lead is measured speed times a parameter",
-            LeadFrom::Table(_) => "compensator whose lead is read from a memory by the speed",
-        }
+        self.lead_from.compensator().1
     }
 
     fn objection(&self) -> Option<String> {
@@ -297,10 +248,7 @@ impl Circuit for Compensator {
             lost,
             carrier,
         } = p.detector.detect(&i, ck_counter.w.enable);
-        let restart = i.clear;
         let target = p.target_setter.q.target;
-        let data = p.time_data.q.lead_time;
-        let mut lead_time = data;
         let sequence = &p.sequencer.q;
         let target_setter = p.target_setter.settle(target_setter::In {
             write: i.write_target,
@@ -310,58 +258,20 @@ impl Circuit for Compensator {
             load: sequence.load,
             step: sequence.step,
         });
-        let (present, lead, fresh, enough) = match p.lead_source {
-            LeadPart::Time(part) => {
-                let time_lead = part.settle(time_lead::In {
-                    ck,
-                    restart,
-                    position,
-                    lead_time: data,
-                });
-                let w = time_lead.w;
-                // The correction counts in CKs, whatever the format of the time data.
-                lead_time = w.code.unwrap_or(data);
-                (w.present, w.lead, w.fresh, w.enough)
-            }
-            LeadPart::Speed(part) => {
-                let speed_lead = part.settle(speed_lead::In {
-                    ck,
-                    restart,
-                    position,
-                    lead_parameter: i.lead_parameter,
-                    gate: i.gate,
-                });
-                let w = speed_lead.w;
-                (w.present, w.lead, w.fresh, w.enough)
-            }
-            LeadPart::Table(part) => {
-                let table_lead = part.settle(table_lead::In {
-                    ck,
-                    restart,
-                    position,
-                    gate: i.gate,
-                });
-                let w = table_lead.w;
-                (w.present, w.lead, w.fresh, w.enough)
-            }
-        };
-        let [compared_position, compared_target] = match p.placement {
-            Some(part) => {
-                let ports = placement::In {
-                    position: present,
-                    target,
-                    lead,
-                };
-                let w = part.settle(ports).w;
-                [w.compared_position, w.compared_target]
-            }
-            None => [lead, target],
-        };
+        let lead = p.lead_source.settle(LeadIn {
+            ck,
+            restart: i.clear,
+            position,
+            data: p.time_data.q.lead_time,
+            lead_parameter: i.lead_parameter,
+            gate: i.gate,
+        });
+        let compared = placement::compared(p.placement, &lead, target);
         let comparator = p.comparator.settle(comparator::In {
-            evaluate: fresh,
-            valid: enough,
-            position: compared_position,
-            target: compared_target,
+            evaluate: lead.fresh,
+            valid: lead.enough,
+            position: compared.position,
+            target: compared.target,
             arm: sequence.arm,
             halt: sequence.halting,
         });
@@ -371,11 +281,11 @@ impl Circuit for Compensator {
             active: operate,
             effect: i.effect,
             position,
-            present,
+            present: lead.present,
         });
         let completion = p.completion.settle(completion_detector::In {
-            evaluate: fresh,
-            position: present,
+            evaluate: lead.fresh,
+            position: lead.present,
             active: sequence.braking,
             effect: probe.q.taken,
             standstill: i.standstill,
@@ -386,7 +296,7 @@ impl Circuit for Compensator {
             complete: completion.q.complete,
             position: probe.w.measured,
             target,
-            lead_time,
+            lead_time: lead.time,
             learn: i.learn,
             // An operation without effect gives no distance to learn from.
             missed: sequence.missed | (i.passing & !probe.q.taken),
@@ -410,9 +320,9 @@ impl Circuit for Compensator {
             run: i.run,
             halt: i.halt,
             last_step: i.last_step,
-            position: present,
+            position: lead.present,
             target,
-            evaluate: fresh,
+            evaluate: lead.fresh,
             control,
             complete: completion.q.complete,
             corrected: correction.w.corrected,
@@ -422,10 +332,10 @@ impl Circuit for Compensator {
         });
         let net = Net {
             ck,
-            position: present,
-            predicted: compared_position,
+            position: lead.present,
+            predicted: compared.position,
             target,
-            lead_time,
+            lead_time: lead.time,
             step: sequencer.q.step,
             busy: sequencer.q.busy,
             drive: sequencer.q.drive,

@@ -1,6 +1,9 @@
 //! Sources of a compensator's lead.
 
-use super::{Division, Form, LeadTable, Memory, SpeedLead, TableLead, TimeLead, grid};
+use super::{
+    Compensator, Division, Form, LeadTable, Memory, SpeedLead, TableLead, TimeLead, Widths, grid,
+    speed_lead, table_lead, time_lead,
+};
 use crate::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -85,6 +88,37 @@ pub enum LeadFrom {
     Table(LeadTable),
 }
 
+impl LeadFrom {
+    /// Returns the form of the lead of a time; for other leads that of the figures.
+    pub(super) fn form(&self) -> LeadForm {
+        match self {
+            LeadFrom::Time { form, .. } => *form,
+            LeadFrom::Speed | LeadFrom::Table(_) => LeadForm::default(),
+        }
+    }
+
+    /// Returns name and description of a compensator with this lead.
+    pub(super) fn compensator(&self) -> (&'static str, &'static str) {
+        match self {
+            LeadFrom::Time { memory, .. } => match memory {
+                Memory::ShiftRegister => (Compensator::NAME, Compensator::ABOUT),
+                Memory::Ram => (
+                    "ram_compensator",
+                    "lead-angle compensator with its history in a RAM",
+                ),
+            },
+            LeadFrom::Speed => (
+                "conventional_compensator",
+                "compensator whose lead is measured speed times a parameter",
+            ),
+            LeadFrom::Table(_) => (
+                "conventional_compensator",
+                "compensator whose lead is read from a memory by the speed",
+            ),
+        }
+    }
+}
+
 choice! {
     /// Circuit of the lead.
     pub enum LeadSource as LeadPart {
@@ -94,5 +128,105 @@ choice! {
         Speed(SpeedLead),
         /// The conventional lead from a memory.
         Table(TableLead),
+    }
+}
+
+impl LeadSource {
+    /// Returns the circuit of a compensator's lead.
+    pub(super) fn of(from: &LeadFrom, widths: &Widths) -> Self {
+        let Widths {
+            stages,
+            position,
+            cks: gate,
+            ..
+        } = *widths;
+        match from {
+            LeadFrom::Time { memory, form } => {
+                Self::Time(form.time_lead(*memory, stages, position))
+            }
+            LeadFrom::Speed => Self::Speed(SpeedLead { position, gate }),
+            LeadFrom::Table(table) => Self::Table(TableLead {
+                position,
+                gate,
+                table: table.clone(),
+            }),
+        }
+    }
+}
+
+/// Inputs of all leads; each takes its own.
+pub(super) struct LeadIn {
+    /// CK.
+    pub(super) ck: Bit,
+    /// Discards the samples taken so far.
+    pub(super) restart: Bit,
+    /// The position.
+    pub(super) position: I,
+    /// The time data of this step.
+    pub(super) data: U,
+    /// a of Fig. 7.
+    pub(super) lead_parameter: U,
+    /// CKs of a gate of Fig. 7.
+    pub(super) gate: U,
+}
+
+/// Outputs of a lead.
+pub(super) struct Lead {
+    /// Dx: the present sample.
+    pub(super) present: I,
+    /// The lead; of products the place itself.
+    pub(super) lead: I,
+    /// Sample and lead are new in this tick.
+    pub(super) fresh: Bit,
+    /// The samples reach back as far as the lead needs.
+    pub(super) enough: Bit,
+    /// Δt in CKs, whatever the format of the time data.
+    pub(super) time: U,
+}
+
+impl LeadPart {
+    /// Settles it.
+    pub(super) fn settle(self, i: LeadIn) -> Lead {
+        let (ck, restart, position, gate) = (i.ck, i.restart, i.position, i.gate);
+        let (present, lead, fresh, enough, time) = match self {
+            LeadPart::Time(part) => {
+                let ports = time_lead::In {
+                    ck,
+                    restart,
+                    position,
+                    lead_time: i.data,
+                };
+                let w = part.settle(ports).w;
+                (w.present, w.lead, w.fresh, w.enough, w.code)
+            }
+            LeadPart::Speed(part) => {
+                let ports = speed_lead::In {
+                    ck,
+                    restart,
+                    position,
+                    lead_parameter: i.lead_parameter,
+                    gate,
+                };
+                let w = part.settle(ports).w;
+                (w.present, w.lead, w.fresh, w.enough, None)
+            }
+            LeadPart::Table(part) => {
+                let ports = table_lead::In {
+                    ck,
+                    restart,
+                    position,
+                    gate,
+                };
+                let w = part.settle(ports).w;
+                (w.present, w.lead, w.fresh, w.enough, None)
+            }
+        };
+        Lead {
+            present,
+            lead,
+            fresh,
+            enough,
+            time: time.unwrap_or(i.data),
+        }
     }
 }

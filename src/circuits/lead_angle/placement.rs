@@ -12,6 +12,7 @@
 //! Departure: the text says of the third that half the lead is subtracted from Dx; it has to be
 //! added.
 
+use super::lead_source::Lead;
 use crate::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -76,6 +77,32 @@ impl Circuit for LeadPlacement {
             compared_target: i.target - (i.lead - advance),
         };
         (net, Nothing)
+    }
+}
+
+/// Operands of the comparator.
+pub(super) struct Compared {
+    /// Position that is compared.
+    pub(super) position: I,
+    /// Target that it is compared with.
+    pub(super) target: I,
+}
+
+/// Settles the placement. Without one the lead is the place itself, as products give it.
+pub(super) fn compared(part: Option<Part<LeadPlacement>>, lead: &Lead, target: I) -> Compared {
+    let Some(part) = part else {
+        let position = lead.lead;
+        return Compared { position, target };
+    };
+    let ports = In {
+        position: lead.present,
+        target,
+        lead: lead.lead,
+    };
+    let w = part.settle(ports).w;
+    Compared {
+        position: w.compared_position,
+        target: w.compared_target,
     }
 }
 
