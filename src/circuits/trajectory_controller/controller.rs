@@ -83,9 +83,9 @@ impl TrajectoryController {
 
     /// Ticks that the correction takes besides.
     const fn correction_latency(&self) -> u64 {
-        match self.correction {
-            Correction::Feedback => self.feedback().latency(),
-            Correction::Vector | Correction::None | Correction::Steady => 0,
+        match self.routing().feedback {
+            true => self.feedback().latency(),
+            false => 0,
         }
     }
 
@@ -122,12 +122,30 @@ impl TrajectoryController {
         LengthClamp { width, back }
     }
 
-    /// Distance of the reference point behind the given length: a count where two points of the
-    /// path give its direction.
-    const fn back(&self) -> u64 {
+    /// Returns the connections of the correction.
+    const fn routing(&self) -> Routing {
+        let vector = Routing {
+            feedback: false,
+            radius_word: RADIUS,
+            back: 0,
+            begins_with_command: false,
+            is_at_command: false,
+        };
         match self.correction {
-            Correction::Feedback => 1 << self.widths.guard(),
-            Correction::Vector | Correction::None | Correction::Steady => 0,
+            Correction::Vector | Correction::None => vector,
+            // The prior art knows where the command is, not where the response is.
+            Correction::Steady => Routing {
+                radius_word: STEADY_RADIUS,
+                begins_with_command: true,
+                is_at_command: true,
+                ..vector
+            },
+            Correction::Feedback => Routing {
+                feedback: true,
+                back: 1 << self.widths.guard(),
+                begins_with_command: true,
+                ..vector
+            },
         }
     }
 
@@ -136,13 +154,6 @@ impl TrajectoryController {
             widths: self.widths.feedback(),
             axes: self.axes,
         }
-    }
-
-    const fn reference_point(&self) -> PathPoint {
-        self.point(match self.correction {
-            Correction::Steady => STEADY_RADIUS,
-            Correction::Vector | Correction::None | Correction::Feedback => RADIUS,
-        })
     }
 
     const fn axis(&self) -> ControlledAxis {
@@ -154,6 +165,22 @@ impl TrajectoryController {
             correction: self.correction,
         }
     }
+}
+
+/// Connections that differ between the corrections.
+#[derive(Clone, Copy)]
+struct Routing {
+    /// There is an error feedback. It uses the motors' positions, not the predicted responses.
+    feedback: bool,
+    /// Word of a segment's record that is the radius of the reference point.
+    radius_word: u64,
+    /// Distance of the reference point behind the given length: a count where two points of the
+    /// path give its direction.
+    back: u64,
+    /// The reference point is computed with the command's, not after the tangential response.
+    begins_with_command: bool,
+    /// The reference point is that of the command.
+    is_at_command: bool,
 }
 
 signals! { for TrajectoryController as c;
@@ -233,15 +260,15 @@ signals! { for TrajectoryController as c;
         /// Tangential servo response 50.
         pub tangential: Part<ReferenceModel>(c.model()),
         /// qs on the path; with the feedback a count less than qc.
-        pub clamp_response: Part<LengthClamp>(c.clamp(c.back())),
+        pub clamp_response: Part<LengthClamp>(c.clamp(c.routing().back)),
         /// Axis distribution 3.
         pub distribution: Part<PathPoint>(c.point(RADIUS)),
         /// Reference point 2.
-        pub reference_point: Part<PathPoint>(c.reference_point()),
+        pub reference_point: Part<PathPoint>(c.point(c.routing().radius_word)),
         /// All points of a period.
         pub gather: Part<PeriodJoin>(PeriodJoin { wait: c.wait() }),
         /// Error feedback, if there is one.
-        pub feedback: Part<ErrorFeedback>(c.feedback()) if (c.correction == Correction::Feedback),
+        pub feedback: Part<ErrorFeedback>(c.feedback()) if (c.routing().feedback),
         /// The axes.
         pub axes: [Part<ControlledAxis>(c.axis()); c.axes] as Elements(&AXIS_NAMES),
     }
@@ -320,9 +347,10 @@ impl Circuit for TrajectoryController {
             target: length,
             gains: i.model_gains,
         });
-        let response = p.clamp_response.settle(on_path(match self.correction {
-            Correction::Feedback => command.w.clamped.signed(),
-            _ => tangential.w.position,
+        let routing = self.routing();
+        let response = p.clamp_response.settle(on_path(match routing.feedback {
+            true => command.w.clamped.signed(),
+            false => tangential.w.position,
         }));
         let point = |start, length| path_point::In {
             start,
@@ -331,12 +359,15 @@ impl Circuit for TrajectoryController {
             path: i.path.clone(),
         };
         let distribution = p.distribution.settle(point(fresh, command.w.clamped));
-        // The prior art knows where the command is, not where the response is.
-        let reference_point = p.reference_point.settle(match self.correction {
-            Correction::Steady => point(fresh, command.w.clamped),
-            Correction::Feedback => point(fresh, response.w.clamped),
-            Correction::Vector | Correction::None => point(tangential.w.fresh, response.w.clamped),
-        });
+        let begins = match routing.begins_with_command {
+            true => fresh,
+            false => tangential.w.fresh,
+        };
+        let length = match routing.is_at_command {
+            true => command.w.clamped,
+            false => response.w.clamped,
+        };
+        let reference_point = p.reference_point.settle(point(begins, length));
         let (placed, referred) = (distribution.w.points, reference_point.w.points);
         let command = |axis: usize| i.given.mux(i.given_command[axis], placed[axis]);
         let corrects = match &p.feedback {
@@ -381,10 +412,9 @@ impl Circuit for TrajectoryController {
             held: progress.q.held,
             placed: distribution.w.done,
             referred: reference_point.w.done,
-            answered: match self.correction {
-                // The feedback uses the motors' positions, not the predicted responses.
-                Correction::Feedback => distribution.w.done,
-                _ => axes[0].w.answered,
+            answered: match routing.feedback {
+                true => distribution.w.done,
+                false => axes[0].w.answered,
             },
             driven: axes[0].w.driven,
             clear: i.restart,
