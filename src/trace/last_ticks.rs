@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 ///     assert_eq!(counter.see(|s| s.w.enable), tick % 4 == 3);
 ///     counter.step();
 /// }
-/// # Ok::<(), motion_rtl::hdl::RunError>(())
+/// # Ok::<(), motion_rtl::sim::RunError>(())
 /// ```
 ///
 /// The files are `failed/<test>.vcd` and `.gtkw` in Cargo's target directory, with `.` for `::` in

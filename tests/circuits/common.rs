@@ -2,7 +2,8 @@
 
 use motion_rtl::circuits::pulse_interpolator::{Group, Pattern, Variant, Widths};
 use motion_rtl::hdl::zero;
-use motion_rtl::sim::{Each, Sample, Simulator};
+use motion_rtl::sim::{Each, Sample};
+use motion_rtl::trace::LastTicks;
 
 /// Widths of half-period, unit time and address.
 pub fn widths(half_period: usize, period: usize, address: usize) -> Widths {
@@ -54,7 +55,7 @@ pub fn steps(group: &Group, ticks: u64) -> Vec<bool> {
     let look = |now: &Sample<'_, Group>| {
         wave.push(now.w.step[0]);
     };
-    Simulator::new(group)
+    LastTicks::simulator(group)
         .unwrap()
         .run(ticks, |_, _| zero(group), Each(look))
         .expect("no observer fails");

@@ -6,7 +6,7 @@ use motion_rtl::circuits::pulse_interpolator::circular_interpolator::{ArcMove, G
 use motion_rtl::circuits::pulse_interpolator::conventional::{Conventional, In};
 use motion_rtl::circuits::pulse_interpolator::motor_controller::ConventionalWidths;
 use motion_rtl::hdl::{Value, zero};
-use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 use std::f64::consts::TAU;
 
 /// Angles have so many bits.
@@ -47,7 +47,7 @@ fn device(axes: usize) -> Conventional {
 /// many came late.
 fn play(axes: usize, period: u64, arcs: &[Arc]) -> (Vec<Vec<i64>>, u64) {
     let circuit = device(axes);
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = LastTicks::simulator(&circuit).unwrap();
     let total: u64 = arcs.iter().map(|arc| arc.units).sum();
     let (mut at, mut before) = (vec![0i64; axes], vec![false; axes]);
     let (mut ends, mut late, mut given) = (Vec::new(), 0, 0);

@@ -2,6 +2,7 @@
 
 use super::common::{player, rises, steps, unit_wave, widths};
 use motion_rtl::circuits::pulse_interpolator::Variant::{Literal, Safe};
+use motion_rtl::trace::LastTicks;
 
 /// The unit time at power-on is silent; the pattern's first unit time follows.
 fn after_start(wave: &[bool], period: u64) -> &[bool] {
@@ -97,14 +98,13 @@ fn known_counts_at_a_unit_time_of_1000_ticks() {
 #[test]
 fn the_literal_generator_takes_no_notice_of_rst() {
     use motion_rtl::circuits::pulse_interpolator::{PulseGenerator, pulse_generator::In};
-    use motion_rtl::sim::Simulator;
     for half_period in 1..16u64 {
         for rst_every in [1, 2, 3, 7, 100] {
             let generator = PulseGenerator {
                 width: 4,
                 variant: Literal,
             };
-            let mut simulator = Simulator::new(&generator).unwrap();
+            let mut simulator = LastTicks::simulator(&generator).unwrap();
             for tick in 0..100u64 {
                 let i = In {
                     half_period,

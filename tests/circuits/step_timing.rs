@@ -5,7 +5,8 @@ use motion_rtl::circuits::pulse_interpolator::Variant;
 use motion_rtl::hdl::zero;
 use motion_rtl::jobs::pulse_interpolator::StepTiming;
 use motion_rtl::jobs::pulse_interpolator::step_dir::{Driver, Drivers, TimingMinima, TooShort};
-use motion_rtl::sim::{RunError, Simulator};
+use motion_rtl::sim::RunError;
+use motion_rtl::trace::LastTicks;
 
 /// Runs a driver over lines drawn as `_` and `#`; the first complaint with its tick.
 fn watch(limits: StepTiming, step: &str, dir: &str) -> (Driver, Option<(u64, TooShort)>) {
@@ -112,7 +113,7 @@ fn drivers_on_a_group_end_the_run_at_the_first_time_too_short() {
             step_high_ticks: min_high,
             ..StepTiming::NONE
         };
-        let mut simulator = Simulator::new(&group).unwrap();
+        let mut simulator = LastTicks::simulator(&group).unwrap();
         let run = simulator.run(60, |_, _| zero(&group), Drivers::new(1, limits));
         match (run, ends) {
             (Ok(()), None) => assert_eq!(simulator.tick(), 60),

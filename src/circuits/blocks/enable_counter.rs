@@ -96,12 +96,13 @@ impl Specified for EnableCounter {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::trace::LastTicks;
 
     /// The ticks of enable, from the definition.
     #[test]
     fn enable_comes_every_period_ticks() {
         for period in 0..40 {
-            let mut simulator = Simulator::new(&EnableCounter { width: 6 }).unwrap();
+            let mut simulator = LastTicks::simulator(&EnableCounter { width: 6 }).unwrap();
             for tick in 1..=200 {
                 let enable = simulator
                     .step_with(&In { period }, |now| now.w.enable)

@@ -168,6 +168,7 @@ impl Specified for RatioLogic {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::trace::LastTicks;
 
     const FULL: RatioLogic = RatioLogic { stages: 199 };
 
@@ -181,7 +182,7 @@ mod tests {
     #[test]
     fn all_519_codes_map_as_the_table_says() {
         let rows = [(1, 1, 199), (2, 200, 398), (5, 400, 995), (10, 1000, 1990)];
-        let mut simulator = Simulator::new(&FULL).unwrap();
+        let mut simulator = LastTicks::simulator(&FULL).unwrap();
         let mut count = 0;
         for time in 1..2048u64 {
             let row = rows
@@ -204,7 +205,7 @@ mod tests {
     /// Nearest within a range; into the gaps between ranges it goes down.
     #[test]
     fn a_time_between_codes_is_rounded() {
-        let mut simulator = Simulator::new(&FULL).unwrap();
+        let mut simulator = LastTicks::simulator(&FULL).unwrap();
         for (time, code) in [
             (0, 0),
             (201, 202),

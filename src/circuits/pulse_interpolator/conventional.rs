@@ -183,6 +183,7 @@ impl Circuit for Conventional {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::trace::LastTicks;
 
     /// A move with its unit time.
     type Given<'a> = (&'a [i64], u64, u64);
@@ -194,7 +195,7 @@ mod tests {
         moves: &[Given<'_>],
         mut see: impl FnMut(u64, &[i64], &[u64]),
     ) -> u64 {
-        let mut simulator = Simulator::new(circuit).unwrap();
+        let mut simulator = LastTicks::simulator(circuit).unwrap();
         let axes = circuit.axes;
         let (mut positions, mut pulses) = (vec![0i64; axes], vec![0; axes]);
         let (mut before, mut late, mut given, mut begun) = (vec![false; axes], 0, 0, 0);

@@ -110,6 +110,7 @@ impl Circuit for Groups {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::trace::LastTicks;
 
     /// A word of half-period 3 in the memory of one axis.
     fn memory(widths: Widths) -> Vec<Contents> {
@@ -130,7 +131,7 @@ mod tests {
             periods: [9, 5],
             memories: [memory(widths), memory(widths)],
         };
-        let mut simulator = Simulator::new(&circuit).unwrap();
+        let mut simulator = LastTicks::simulator(&circuit).unwrap();
         let mut found = [(None, Vec::new()), (None, Vec::new())];
         for tick in 0..80 {
             for (k, found) in found.iter_mut().enumerate() {

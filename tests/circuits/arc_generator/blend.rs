@@ -16,6 +16,7 @@ use motion_rtl::jobs::arc_generator::settings::ShortPieces;
 use motion_rtl::path::circle::Circle;
 use motion_rtl::path::pieces::{Course, Piece};
 use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 
 const FULL: Widths = Blend::Products.widths(Widths::FULL);
 
@@ -33,7 +34,7 @@ fn weight(h: i128, fraction: usize) -> i128 {
 fn every_share_has_its_weight_bit_by_bit() {
     let (coefficient, fraction) = (9, 7);
     let circuit = BlendWeight { coefficient };
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = LastTicks::simulator(&circuit).unwrap();
     for share in 0..=1i64 << fraction {
         let mut i = blend_weight::In {
             step: true,
@@ -162,7 +163,7 @@ fn every_small_blend_is_its_program() {
         ..Widths::FULL
     };
     let circuit = BlendPoint { widths };
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = LastTicks::simulator(&circuit).unwrap();
     let cases: Vec<[i128; 3]> = (0..1 << 12)
         .map(|case| [0, 4, 8].map(|low| wrap(case >> low, 4)))
         .collect();
@@ -179,7 +180,7 @@ fn every_small_blend_is_its_program() {
 fn blends_of_full_width_are_their_program() {
     let circuit = BlendPoint { widths: FULL };
     assert_eq!(circuit.latency(), 133);
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = LastTicks::simulator(&circuit).unwrap();
     let mut random = Random::new(5);
     for case in 0..120 {
         let points = [0; 3].map(|_| [0; 3].map(|_| wrap(random.word().into(), 40)));
@@ -212,7 +213,7 @@ fn a_halt_leaves_nothing_behind() {
         ..zero(&circuit)
     };
     for ticks in 0..=circuit.latency() {
-        let mut simulator = Simulator::new(&circuit).unwrap();
+        let mut simulator = LastTicks::simulator(&circuit).unwrap();
         load(&mut simulator, &mut i, &record(points, 9, &FULL));
         i.step = true;
         for _ in 0..ticks {

@@ -20,6 +20,7 @@ use motion_rtl::jobs::arc_generator::settings::ShortPieces;
 use motion_rtl::path::circle::Circle;
 use motion_rtl::path::record::Record;
 use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -36,7 +37,7 @@ fn every_element_of_four_bits_is_the_sum_of_its_products() {
             coefficient: 4,
             sign,
         };
-        let mut simulator = Simulator::new(&circuit).unwrap();
+        let mut simulator = LastTicks::simulator(&circuit).unwrap();
         for case in 0..1i128 << 16 {
             let [product, turn, versine, other] = [0, 4, 8, 12].map(|low| wrap(case >> low, 4));
             let mut i = matrix_element::In {
@@ -77,7 +78,7 @@ proptest! {
     ) {
         let rounding = if nearest { Rounding::Nearest } else { Rounding::Floor };
         let circuit = VectorRow { widths: FULL, coordinate: coordinate as u64, rounding };
-        let mut simulator = Simulator::new(&circuit).unwrap();
+        let mut simulator = LastTicks::simulator(&circuit).unwrap();
         let mask = (1 << COEFFICIENT) - 1;
         let mut i = vector_row::In {
             copy: true,
@@ -108,7 +109,7 @@ proptest! {
         across in -(1i64 << (FRACTION + FINE))..=1 << (FRACTION + FINE),
     ) {
         let circuit = SineWords { coefficient: COEFFICIENT };
-        let mut simulator = Simulator::new(&circuit).unwrap();
+        let mut simulator = LastTicks::simulator(&circuit).unwrap();
         simulator.step_with(&sine_words::In { copy: true, along, across }, |_| ()).unwrap();
         let i = zero(&circuit);
         let mut words = [0i128; 3];
@@ -327,7 +328,7 @@ fn a_halt_leaves_nothing_behind() {
         }
         commands
     };
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = LastTicks::simulator(&circuit).unwrap();
     assert_eq!(commands(&mut simulator, 1_000_000), expected);
     // In every phase of a sample; what was under way takes up to 131 ticks more.
     for ticks in 700..700 + 180 {

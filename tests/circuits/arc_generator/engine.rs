@@ -5,7 +5,7 @@ use motion_rtl::circuits::blocks::difference_column::Widths;
 use motion_rtl::circuits::blocks::difference_engine::In;
 use motion_rtl::circuits::blocks::{DifferenceEngine, RecordWord};
 use motion_rtl::hdl::{Cut, zero};
-use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 use proptest::prelude::*;
 
 const SMALL: Widths = Widths {
@@ -36,7 +36,7 @@ fn run(
     steps: i128,
 ) -> Vec<(i128, i128, i128)> {
     let circuit = DifferenceEngine { widths, coordinate };
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = LastTicks::simulator(&circuit).unwrap();
     let mut loads = vec![(2 + coordinate, words[0])];
     for (order, difference) in words[1..].iter().enumerate() {
         let first = 8 + 8 * coordinate + 2 * order as u64;

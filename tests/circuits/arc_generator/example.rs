@@ -4,7 +4,7 @@ use motion_rtl::circuits::arc_generator::ArcGenerator;
 use motion_rtl::circuits::arc_generator::generator::{In, Segments};
 use motion_rtl::circuits::blocks::RecordWrite;
 use motion_rtl::hdl::Cut;
-use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 
 /// Words that are not 0: from rest to 64 counts, on to 128, to rest at 192.
 const RECORDS: [&[(usize, i64)]; 3] = [
@@ -31,7 +31,7 @@ const COMMANDS: [i64; 11] = [0, 2, 12, 34, 64, 96, 128, 158, 180, 190, 192];
 
 #[test]
 fn the_path_of_the_note() {
-    let mut simulator = Simulator::new(&ArcGenerator::default()).unwrap();
+    let mut simulator = LastTicks::simulator(&ArcGenerator::default()).unwrap();
     let width = simulator.signals().i.segments.record.write_data.width();
     let mut seen = Vec::new();
     for tick in 0..1300 {

@@ -5,7 +5,7 @@ use motion_rtl::check::Random;
 use motion_rtl::circuits::blocks::record_memory::{In, RECORD};
 use motion_rtl::circuits::blocks::{RecordMemory, RecordWrite};
 use motion_rtl::hdl::{Cut, Value};
-use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 use std::collections::VecDeque;
 
 /// A memory as a queue of records; what goes out is told by the tick of each word.
@@ -55,7 +55,7 @@ impl Program {
 
 #[test]
 fn it_is_a_queue_of_records() {
-    let mut simulator = Simulator::new(&MEMORY).unwrap();
+    let mut simulator = LastTicks::simulator(&MEMORY).unwrap();
     let mut random = Random::new(1);
     let mut program = Program::default();
     let (mut went, mut flushed) = (0, 0);
@@ -118,7 +118,7 @@ fn it_is_a_queue_of_records() {
 
 #[test]
 fn a_record_takes_its_latency() {
-    let mut simulator = Simulator::new(&MEMORY).unwrap();
+    let mut simulator = LastTicks::simulator(&MEMORY).unwrap();
     for tick in 0..200 {
         let record = RecordWrite {
             write: tick < 32,

@@ -6,6 +6,7 @@ use motion_rtl::circuits::arc_generator::{Rotation, Rounding, Widths};
 use motion_rtl::circuits::blocks::RecordWord;
 use motion_rtl::hdl::{Cut, Value};
 use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 use proptest::prelude::*;
 
 /// Ports in with a word that is loaded.
@@ -42,7 +43,7 @@ fn simulator(
         data,
         ..Widths::FULL
     };
-    Simulator::new(&Rotation { widths, rounding }).unwrap()
+    LastTicks::simulator(&Rotation { widths, rounding }).unwrap()
 }
 
 fn load(simulator: &mut Simulator<Rotation>, words: impl IntoIterator<Item = (u64, i128)>) {

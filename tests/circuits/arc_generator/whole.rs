@@ -7,7 +7,7 @@ use motion_rtl::check::Random;
 use motion_rtl::circuits::arc_generator::generator::In;
 use motion_rtl::circuits::arc_generator::{ArcGenerator, Blend, Rounding};
 use motion_rtl::hdl::{Cut, Value, zero};
-use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 
 const FULL: ArcGenerator = ArcGenerator::new(Rounding::Nearest, Blend::Differences);
 const GUARD: u32 = 16;
@@ -173,7 +173,8 @@ struct Run {
 }
 
 fn run(segments: &[Segment], rounding: Rounding, period: u64, start_with: usize) -> Run {
-    let mut simulator = Simulator::new(&ArcGenerator::new(rounding, Blend::Differences)).unwrap();
+    let mut simulator =
+        LastTicks::simulator(&ArcGenerator::new(rounding, Blend::Differences)).unwrap();
     let mut host = Host {
         segments,
         segment: 0,
@@ -309,7 +310,7 @@ fn the_first_point_is_ready_after_its_latency() {
 fn halt_leaves_the_commands_where_they_are() {
     let segments = line_and_arc();
     for halted in 300..900 {
-        let mut simulator = Simulator::new(&FULL).unwrap();
+        let mut simulator = LastTicks::simulator(&FULL).unwrap();
         let mut host = Host {
             segments: &segments,
             segment: 0,
@@ -373,7 +374,7 @@ fn a_path_that_begins_right_after_a_halt_is_that_of_its_record() {
     let segments = line_and_arc();
     let [_, behind] = &segments;
     for halted in 560..680 {
-        let mut simulator = Simulator::new(&FULL).unwrap();
+        let mut simulator = LastTicks::simulator(&FULL).unwrap();
         let mut host = Host {
             segments: &segments,
             segment: 0,

@@ -4,6 +4,7 @@ use super::below;
 use motion_rtl::check::Random;
 use motion_rtl::circuits::lead_angle::AbsoluteDetector;
 use motion_rtl::prelude::*;
+use motion_rtl::trace::LastTicks;
 
 const TURN: i64 = 90_000;
 const CODE: usize = 17;
@@ -27,7 +28,7 @@ impl Bench {
             code: CODE,
             position: 24,
         };
-        let mut detector = Simulator::new(&circuit).unwrap();
+        let mut detector = LastTicks::simulator(&circuit).unwrap();
         detector.set(|i| i.turn, TURN as u64).unwrap();
         let random = Random::new(11);
         let word = 0;

@@ -4,6 +4,7 @@ use motion_rtl::circuits::lead_angle::comparator::In;
 use motion_rtl::circuits::lead_angle::{Comparator, Comparing};
 use motion_rtl::hdl::{Cut, Value};
 use motion_rtl::sim::{Sample, Simulator};
+use motion_rtl::trace::LastTicks;
 
 const RANGE: i64 = 16;
 
@@ -23,7 +24,7 @@ fn comparator(position: usize, comparing: Comparing) -> Simulator<Comparator> {
         position,
         comparing,
     };
-    Simulator::new(&circuit).unwrap()
+    LastTicks::simulator(&circuit).unwrap()
 }
 
 /// Returns true if a step from `from` to `to` reaches or passes an image of the target.

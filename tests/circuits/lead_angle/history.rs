@@ -6,6 +6,7 @@ use motion_rtl::circuits::lead_angle::position_history::{self, In};
 use motion_rtl::circuits::lead_angle::{PositionHistory, RamHistory};
 use motion_rtl::hdl::{Circuit, Place, Signals, Value};
 use motion_rtl::sim::{Simulator, State};
+use motion_rtl::trace::LastTicks;
 
 /// Runs a history over `samples` random samples with the tap `tap`, restarted after `start` of
 /// them, a CK every few ticks, against the list of all samples.
@@ -87,7 +88,7 @@ fn pair_and_ratio_belong_together_when_the_tap_changes() {
         stages: 15,
         position: 8,
     };
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = LastTicks::simulator(&circuit).unwrap();
     let mut taken = Vec::new();
     let mut random = Random::new(5);
     for tick in 0..20_000 {
@@ -148,7 +149,7 @@ fn both_forms_agree_at_full_width() {
         i.0.restart = tick.is_multiple_of(2503);
         i
     };
-    let end = Simulator::new(&pair)
+    let end = LastTicks::simulator(&pair)
         .unwrap()
         .run(100_000, stimulus, lockstep);
     end.unwrap();

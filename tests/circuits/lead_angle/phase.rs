@@ -3,7 +3,7 @@
 
 use motion_rtl::circuits::lead_angle::PhaseDetector;
 use motion_rtl::plant::PhaseShiftTransducer;
-use motion_rtl::prelude::*;
+use motion_rtl::trace::LastTicks;
 
 /// A sample of the detector.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,7 +30,7 @@ fn samples(
         phase,
         position: width,
     };
-    let mut detector = Simulator::new(&circuit).unwrap();
+    let mut detector = LastTicks::simulator(&circuit).unwrap();
     detector
         .set(|i| i.modulus, u64::from(pitch) % (1 << phase))
         .unwrap();
@@ -208,7 +208,7 @@ fn clear_takes_the_next_place() {
         phase: 6,
         position: 12,
     };
-    let mut detector = Simulator::new(&circuit).unwrap();
+    let mut detector = LastTicks::simulator(&circuit).unwrap();
     detector.set(|i| i.modulus, 40).unwrap();
     let transducer = PhaseShiftTransducer::new(40);
     for tick in 0..8_000u64 {

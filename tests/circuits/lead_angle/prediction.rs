@@ -5,7 +5,7 @@ use motion_rtl::circuits::lead_angle::{
     Division, Lead, LeadPlacement, Memory, Placement, TimeLead, lead, placement, time_lead,
 };
 use motion_rtl::hdl::{Cut, Value};
-use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 use proptest::prelude::*;
 use std::collections::HashSet;
 
@@ -27,10 +27,10 @@ fn the_prediction_is_exact_on_the_ring_and_the_placements_agree() {
         position: 8,
         placement,
     });
-    let mut placed = circuits.map(|circuit| Simulator::new(&circuit).unwrap());
+    let mut placed = circuits.map(|circuit| LastTicks::simulator(&circuit).unwrap());
     let w = &placed[0].signals().w;
     let compared = [w.compared_position, w.compared_target];
-    let mut lead = Simulator::new(&Lead {
+    let mut lead = LastTicks::simulator(&Lead {
         position: 8,
         one: false,
     })
@@ -91,7 +91,7 @@ fn predictions(
     [count, last]: [i64; 2],
     position: impl Fn(i64) -> i64,
 ) -> Vec<i64> {
-    let mut simulator = Simulator::new(circuit).unwrap();
+    let mut simulator = LastTicks::simulator(circuit).unwrap();
     let mut i: time_lead::In<Value> = time_lead::In {
         ck: true,
         restart: false,

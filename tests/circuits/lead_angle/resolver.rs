@@ -6,6 +6,7 @@ use motion_rtl::circuits::lead_angle::{
 };
 use motion_rtl::plant::{Resolver, ResolverParameters};
 use motion_rtl::prelude::*;
+use motion_rtl::trace::LastTicks;
 use std::f64::consts::TAU;
 
 /// The detector as it is built.
@@ -37,7 +38,7 @@ fn samples(
     position: impl Fn(u64) -> f64,
     words: impl Fn(u64, [i64; 2]) -> [i64; 2],
 ) -> Vec<Seen> {
-    let mut detector = Simulator::new(&detector()).unwrap();
+    let mut detector = LastTicks::simulator(&detector()).unwrap();
     detector.set(|i| i.modulus, pitch % (1 << 17)).unwrap();
     let (mut seen, mut strobes) = (Vec::new(), Vec::new());
     for tick in 0..ticks {
@@ -327,7 +328,7 @@ fn a_body_that_is_too_fast_is_lost() {
 /// `clear` takes the next place, and goes over no seam.
 #[test]
 fn clear_takes_the_next_place() {
-    let mut detector = Simulator::new(&detector()).unwrap();
+    let mut detector = LastTicks::simulator(&detector()).unwrap();
     detector.set(|i| i.modulus, 1000).unwrap();
     let mut resolver = good(1000);
     let mut place = None;

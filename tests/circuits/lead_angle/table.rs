@@ -3,7 +3,7 @@
 use super::below;
 use motion_rtl::check::Random;
 use motion_rtl::circuits::lead_angle::{LeadTable, SpeedLead, TableLead, speed_lead, table_lead};
-use motion_rtl::prelude::*;
+use motion_rtl::trace::LastTicks;
 
 fn filled(lead: impl Fn(i64) -> i64) -> TableLead {
     TableLead {
@@ -15,7 +15,7 @@ fn filled(lead: impl Fn(i64) -> i64) -> TableLead {
 
 /// The lead of each of these ways of a gate of one CK, one after the other.
 fn leads(circuit: &TableLead, ways: &[i64]) -> Vec<i64> {
-    let mut simulator = Simulator::new(circuit).unwrap();
+    let mut simulator = LastTicks::simulator(circuit).unwrap();
     simulator.set(|i| i.ck, true).unwrap();
     simulator.step();
     let mut position = 0;
@@ -37,8 +37,8 @@ fn a_memory_of_a_product_gives_what_the_product_gives() {
         position: 24,
         gate: 16,
     };
-    let mut table = Simulator::new(&table).unwrap();
-    let mut product = Simulator::new(&product).unwrap();
+    let mut table = LastTicks::simulator(&table).unwrap();
+    let mut product = LastTicks::simulator(&product).unwrap();
     let mut random = Random::new(7);
     let (mut position, mut enough, mut led) = (0, 0, 0);
     for tick in 0..20_000 {

@@ -1,7 +1,7 @@
 //! The unwrapper for every pair of places of every modulus of four bits.
 
 use motion_rtl::circuits::lead_angle::Unwrapper;
-use motion_rtl::prelude::*;
+use motion_rtl::trace::LastTicks;
 
 /// The shorter way from one place to another. At half the modulus both are as long: the one that does
 /// not pass place 0 counts.
@@ -22,7 +22,7 @@ fn every_step_goes_the_shorter_way_and_half_a_pitch_the_way_without_place_0() {
         place: 4,
         position: 8,
     };
-    let mut unwrapper = Simulator::new(&circuit).unwrap();
+    let mut unwrapper = LastTicks::simulator(&circuit).unwrap();
     for counts in 1..=16i64 {
         unwrapper.set(|i| i.modulus, counts as u64 % 16).unwrap();
         unwrapper.set(|i| i.take, true).unwrap();

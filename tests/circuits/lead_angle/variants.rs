@@ -8,6 +8,7 @@ use motion_rtl::circuits::lead_angle::{
 };
 use motion_rtl::prelude::*;
 use motion_rtl::registry::{ProofSearch, Verdict, find};
+use motion_rtl::trace::LastTicks;
 
 #[test]
 fn every_variant_is_proved() {
@@ -34,7 +35,7 @@ fn every_variant_is_proved() {
 #[test]
 fn times_are_divided_as_the_ratio_logic_divides_them() {
     for stages in [3, 15, 199] {
-        let mut logic = Simulator::new(&RatioLogic { stages }).unwrap();
+        let mut logic = LastTicks::simulator(&RatioLogic { stages }).unwrap();
         for lead_time in 0..1 << codes::time_width(stages) {
             let seen = logic
                 .step_with(&ratio_logic::In { lead_time }, |now| {
@@ -179,7 +180,7 @@ fn every_form_is_proved_to_predict_what_the_embodiment_predicts() {
 fn at_full_width_too() {
     for beside in forms(199, 24) {
         let mut random = Random::new(3);
-        let mut simulator = Simulator::new(&beside).unwrap();
+        let mut simulator = LastTicks::simulator(&beside).unwrap();
         let mut i = zero(&beside);
         let mut led = 0;
         for tick in 0..3_000 {

@@ -7,6 +7,7 @@ use motion_rtl::circuits::linear_interpolator::target_data::Settings;
 use motion_rtl::circuits::linear_interpolator::{LinearInterpolator, MasterAxis, Rule, Widths};
 use motion_rtl::hdl::Value;
 use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 
 const WORDS: std::ops::Range<i64> = -16..16;
 const SCAN: u64 = small(Rule::Floor, MasterAxis::Longer).latency();
@@ -28,7 +29,7 @@ fn at_power_on(rule: Rule) -> Simulator<LinearInterpolator> {
 }
 
 fn led(rule: Rule, master: MasterAxis) -> Simulator<LinearInterpolator> {
-    let mut simulator = Simulator::new(&small(rule, master)).unwrap();
+    let mut simulator = LastTicks::simulator(&small(rule, master)).unwrap();
     simulator.compile();
     simulator
 }
@@ -494,7 +495,7 @@ fn a_long_line_at_full_width() {
         speed: 1_000_000 << 12,
         times: [20, 35],
     };
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = LastTicks::simulator(&circuit).unwrap();
     let mut points = Vec::new();
     for tick in 0..2100 * circuit.latency() {
         let mut i = ports(tick % circuit.latency() == 0, Some(target), false);

@@ -2,7 +2,7 @@
 
 use motion_rtl::circuits::linear_interpolator::target_data::{In, Settings};
 use motion_rtl::circuits::linear_interpolator::{TargetData, Widths};
-use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 use proptest::prelude::*;
 use std::collections::VecDeque;
 
@@ -16,7 +16,7 @@ proptest! {
     ) {
         let mut queue = VecDeque::new();
         let widths = Widths { address: 2, ..Widths::FULL };
-        let mut simulator = Simulator::new(&TargetData { widths, settings: 1 }).unwrap();
+        let mut simulator = LastTicks::simulator(&TargetData { widths, settings: 1 }).unwrap();
         let mut shown = ([0, 0], 0, [0, 0]);
         for (push, [x, y], speed, times, pop, flush) in ticks {
             let flush = flush == 0;

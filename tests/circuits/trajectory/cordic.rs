@@ -4,12 +4,13 @@ use motion_rtl::circuits::blocks::Cordic;
 use motion_rtl::circuits::blocks::cordic::In;
 use motion_rtl::circuits::blocks::cordic_state::GAIN;
 use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
 /// CORDIC of radii and angles of so many bits.
 fn cordic(radius: usize, angle: usize) -> Simulator<Cordic> {
-    Simulator::new(&Cordic { radius, angle }).unwrap()
+    LastTicks::simulator(&Cordic { radius, angle }).unwrap()
 }
 
 /// A vector turned by an angle; nothing before its tick.

@@ -5,6 +5,7 @@ use motion_rtl::circuits::trajectory_controller::widths::FeedbackWidths;
 use motion_rtl::circuits::trajectory_controller::{ErrorFeedback, Widths};
 use motion_rtl::hdl::{Value, zero};
 use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
@@ -75,7 +76,7 @@ fn every_case_of_an_axis() {
             gain,
         };
         let circuit = ErrorFeedback { widths, axes: 1 };
-        let mut simulator = Simulator::new(&circuit).unwrap();
+        let mut simulator = LastTicks::simulator(&circuit).unwrap();
         simulator.compile();
         let signed = |bits: usize| -(1i64 << (bits - 1))..1 << (bits - 1);
         for command in signed(position) {
@@ -152,7 +153,7 @@ fn random_errors_and_directions_of_two_to_four_axes() {
 fn each_gain_is_of_its_direction() {
     let widths = Widths::FULL.feedback();
     let circuit = ErrorFeedback { widths, axes: 2 };
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = LastTicks::simulator(&circuit).unwrap();
     let mut fed = |way: [i64; 2], error: [i64; 2], tangential_gain: u64, normal_gain: u64| {
         let i = In {
             start: true,

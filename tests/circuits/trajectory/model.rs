@@ -5,6 +5,7 @@ use motion_rtl::circuits::trajectory_controller::reference_model::In;
 use motion_rtl::circuits::trajectory_controller::{ReferenceModel, Rounding};
 use motion_rtl::hdl::Value;
 use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 use proptest::prelude::*;
 use std::collections::HashSet;
 
@@ -13,7 +14,7 @@ type Bench = Simulator<ReferenceModel>;
 /// A model of positions and gains of so many bits.
 fn bench(position: usize, gain: usize, rounding: Rounding) -> Bench {
     let widths = ModelWidths { position, gain };
-    Simulator::new(&ReferenceModel { widths, rounding }).unwrap()
+    LastTicks::simulator(&ReferenceModel { widths, rounding }).unwrap()
 }
 
 /// p, v and a.

@@ -5,7 +5,7 @@ use motion_rtl::circuits::trajectory_controller::segment_search::In;
 use motion_rtl::circuits::trajectory_controller::widths::PointWidths;
 use motion_rtl::circuits::trajectory_controller::{SegmentSearch, Widths};
 use motion_rtl::hdl::Value;
-use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 
 const A: usize = 4;
 
@@ -37,7 +37,7 @@ fn every_length_is_found() {
         begins.sort_unstable();
         begins.dedup();
         let last = begins.len() as u64 - 1;
-        let mut simulator = Simulator::new(&circuit).unwrap();
+        let mut simulator = LastTicks::simulator(&circuit).unwrap();
         for segment in 0..1u64 << A {
             // Behind the last stands what is left of another path.
             let begin = begins.get(segment as usize).copied();

@@ -7,7 +7,7 @@ use motion_rtl::circuits::blocks::cordic_state;
 use motion_rtl::circuits::trajectory_controller::controller::In;
 use motion_rtl::circuits::trajectory_controller::vector_correction::Correction;
 use motion_rtl::circuits::trajectory_controller::{ErrorFeedback, Widths, error_feedback};
-use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -344,7 +344,7 @@ fn the_least_period_is_enough_and_one_tick_less_is_not() {
     let circuit = PLANE.controller(Correction::Vector);
     let least = circuit.least_period();
     for period in [least - 1, least] {
-        let mut simulator = Simulator::new(&circuit).unwrap();
+        let mut simulator = LastTicks::simulator(&circuit).unwrap();
         let writes = PLANE.writes(&path, &steps(&[1]), GAINS, period);
         let idle = PLANE.idle(&path, GAINS, period);
         let idle = (0..8 * period).map(|_| idle.clone());
@@ -361,7 +361,7 @@ fn the_least_period_is_enough_and_one_tick_less_is_not() {
 #[test]
 fn a_second_path_begins_where_the_first_has_ended() {
     let circuit = PLANE.controller(Correction::Vector);
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = LastTicks::simulator(&circuit).unwrap();
     let (sin, cos) = 0.7f64.sin_cos();
     let first = segment(10_000_001, [0.0; 2], [cos, sin], None);
     let end = [cos, sin].map(|part| part * 10_000_001.0);

@@ -3,6 +3,7 @@
 
 use super::{In, QuadratureCounter};
 use crate::prelude::*;
+use crate::trace::LastTicks;
 use proptest::prelude::*;
 
 /// Ticks from a level at the pin to the position.
@@ -27,7 +28,7 @@ struct Out {
 
 /// Returns the output ports in every tick.
 fn run(width: usize, inputs: impl IntoIterator<Item = In<Value>>) -> Vec<Out> {
-    let mut simulator = Simulator::new(&QuadratureCounter { width }).unwrap();
+    let mut simulator = LastTicks::simulator(&QuadratureCounter { width }).unwrap();
     let mut step = |i| {
         simulator
             .step_with(&i, |now| Out {
@@ -106,7 +107,7 @@ fn the_first_sample_is_where_it_starts() {
 fn a_reset_begins_anew_whatever_the_level() {
     let counter = QuadratureCounter { width: 8 };
     for start in 0..4 {
-        let mut simulator = Simulator::new(&counter).unwrap();
+        let mut simulator = LastTicks::simulator(&counter).unwrap();
         for tick in 0..20 {
             let i = levels(channels(start + tick.min(7)), false);
             let rst = (10..13).contains(&tick);

@@ -3,6 +3,7 @@
 
 use super::{In, LoopWidths, PositionControl};
 use crate::prelude::*;
+use crate::trace::LastTicks;
 use proptest::prelude::*;
 
 /// Registers that a scan loads, and the nets of that tick.
@@ -15,7 +16,7 @@ struct Out {
 }
 
 fn control(widths: LoopWidths) -> Simulator<PositionControl> {
-    Simulator::new(&PositionControl { widths }).unwrap()
+    LastTicks::simulator(&PositionControl { widths }).unwrap()
 }
 
 /// Runs a scan; its result does not depend on earlier ones.
