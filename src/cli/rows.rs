@@ -59,3 +59,8 @@ pub fn fixed(value: f64, decimals: usize) -> String {
 pub fn or_dash(value: Option<impl ToString>) -> String {
     value.map_or("-".to_owned(), |value| value.to_string())
 }
+
+/// Formats a number with `decimals` decimals, or a dash where there is none.
+pub fn fixed_or_dash(value: Option<f64>, decimals: usize) -> String {
+    or_dash(value.map(|value| fixed(value, decimals)))
+}

@@ -1,7 +1,8 @@
 //! The joints of an arm in the summary.
 
 use super::Job;
-use crate::cli::rows::{fixed, table};
+use crate::cli::columns::Table;
+use crate::cli::rows::fixed;
 use motion_rtl::path::arm::JOINT_NAMES;
 use serde::Serialize;
 use std::fmt::{self, Write};
@@ -52,21 +53,13 @@ pub fn rows(job: &Job) -> Option<ArmRows> {
 impl ArmRows {
     /// Writes the rows as text.
     pub fn write(&self, text: &mut String) -> fmt::Result {
-        let heads = [
-            ("joint   ", 0),
-            ("from deg", 9),
-            ("to deg", 9),
-            ("largest deg/s", 0),
-            ("deg/s2", 9),
-        ];
-        let cells = self.joints.iter().map(|row| {
-            let [least, most] = row.range_deg.map(|angle| fixed(angle, 3));
-            let rates = [row.speed_deg_per_s, row.acceleration_deg_per_s2];
-            let [speed, acceleration] = rates.map(|rate| fixed(rate, 3));
-            let joint = format!("{:<8}", row.joint);
-            [joint, least, most, speed, acceleration]
-        });
-        table(text, heads, cells)?;
+        Table::of(&self.joints)
+            .left("joint", 8, |row| row.joint)
+            .col("from deg", 9, |row| fixed(row.range_deg[0], 3))
+            .col("to deg", 9, |row| fixed(row.range_deg[1], 3))
+            .col("largest deg/s", 0, |row| fixed(row.speed_deg_per_s, 3))
+            .col("deg/s2", 9, |row| fixed(row.acceleration_deg_per_s2, 3))
+            .write(text)?;
         writeln!(
             text,
             "joints of {} counts a turn put the hand at most {:.3} um off its command\n",

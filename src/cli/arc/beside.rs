@@ -3,7 +3,6 @@
 use super::Job;
 use super::figures::{Blended, Figures};
 use super::mechanism::{Jolt, Jolting};
-use super::verdict::bounds;
 use crate::cli::Failure;
 use motion_rtl::circuits::arc_generator::{Conventional, Widths};
 use motion_rtl::input::Point;
@@ -11,6 +10,7 @@ use motion_rtl::jobs::arc_generator::beside::{play_each, records};
 use motion_rtl::jobs::arc_generator::bounds::conventional_error;
 use motion_rtl::jobs::arc_generator::conventional::Conventional as Method;
 use motion_rtl::jobs::arc_generator::job::{Command, Played, arc_generator};
+use motion_rtl::jobs::arc_generator::measure::Measured;
 use motion_rtl::jobs::arc_generator::prepare::Timing;
 use motion_rtl::jobs::arc_generator::prepared::Shape;
 use motion_rtl::path::circle::Circle;
@@ -253,7 +253,11 @@ pub struct Row {
 }
 
 impl Row {
-    fn of(model: &Elaborated, played: &Played, [error, bound]: [f64; 2]) -> Self {
+    fn of(
+        model: &Elaborated,
+        played: &Played,
+        [error_max_um, error_bound_um]: [f64; 2],
+    ) -> Self {
         let cost = model.cost();
         let needed = played.needed;
         let there = |ticks: u64| (ticks > 0).then_some(ticks);
@@ -267,15 +271,20 @@ impl Row {
             ticks_change: there(needed.change),
             ticks_most: needed.most(),
             in_time: !played.late,
-            error_max_um: error * 1e3,
-            error_bound_um: bound * 1e3,
+            error_max_um,
+            error_bound_um,
         }
     }
 }
 
 /// Returns the circuit and, in a comparison, the conventional one; empty if the path has no arc or
 /// an arc is not compared.
-pub fn rows(job: &Job, played: &Played, figures: &Figures) -> Result<Vec<Row>, RunError> {
+pub fn rows(
+    job: &Job,
+    played: &Played,
+    figures: &Figures,
+    measured: &Measured,
+) -> Result<Vec<Row>, RunError> {
     let beside = &figures.beside;
     let compared = job.loaded.scenario.beside();
     if figures.arcs.is_empty() || compared && beside.arcs.is_empty() {
@@ -283,8 +292,7 @@ pub fn rows(job: &Job, played: &Played, figures: &Figures) -> Result<Vec<Row>, R
     }
     let rounding = job.settings.rounding;
     let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-    let own = figures.measured.as_ref().map_or(0.0, |m| m.largest_error);
-    let own = [own, most(&mut bounds(job, &figures.arcs).into_iter())];
+    let own = [measured.error_max_um, measured.error_bound_um];
     let own = Row::of(
         &Elaborated::new(&arc_generator(&job.settings))?,
         played,
@@ -295,8 +303,8 @@ pub fn rows(job: &Job, played: &Played, figures: &Figures) -> Result<Vec<Row>, R
     }
     let arcs = &beside.arcs;
     let other = [
-        most(&mut arcs.iter().map(|arc| arc.error)),
-        most(&mut arcs.iter().map(|arc| arc.bound)),
+        most(&mut arcs.iter().map(|arc| arc.error)) * 1e3,
+        most(&mut arcs.iter().map(|arc| arc.bound)) * 1e3,
     ];
     Ok(vec![
         own,

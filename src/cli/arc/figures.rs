@@ -4,11 +4,11 @@ use super::Job;
 use super::beside::Beside;
 use super::mechanism::{Jolt, Jolting};
 use super::products::{Differing, Row as ProductsRow};
-use super::verdict::bounds;
 use super::view::projected;
 use crate::cli::report::First;
 use crate::cli::thinned::Thinned;
 use motion_rtl::input::Point;
+use motion_rtl::jobs::arc_generator::bounds::segment_error;
 use motion_rtl::jobs::arc_generator::job::Command;
 use motion_rtl::jobs::arc_generator::measure::{Measured, Measuring, SampleMeasured};
 use motion_rtl::jobs::arc_generator::prepared::{ArcReport, Shape};
@@ -42,6 +42,16 @@ pub struct Figures {
     pub beside: Beside,
     /// The arcs by the conventional method without ramps.
     pub even: Beside,
+}
+
+impl Figures {
+    /// Sets the error of the conventional method beside each arc's own.
+    pub fn compare_arcs(&mut self) {
+        for arc in self.measured.iter_mut().flat_map(|own| &mut own.arcs) {
+            let error_mm = self.beside.radius_error(arc.segment);
+            arc.conventional_radius_error_um = Some(error_mm * 1e3);
+        }
+    }
 }
 
 /// An arc of a path.
@@ -133,8 +143,8 @@ impl<'j> UnderWay<'j> {
         let arcs = arcs(job);
         UnderWay {
             job,
-            measuring: Measuring::new(&job.prepared, job.settings.counts_per_mm),
-            bounds: bounds(job, &arcs),
+            measuring: Measuring::new(&job.prepared, &job.settings),
+            bounds: bounds(job),
             astray: First::default(),
             differing: Differing::of(job),
             jolting: Jolting::new(job),
@@ -223,6 +233,13 @@ impl<'j> UnderWay<'j> {
             ..self.figures
         }
     }
+}
+
+/// Returns the error bound of each segment's samples in mm.
+fn bounds(job: &Job) -> Vec<f64> {
+    let segments = job.prepared.segments.iter();
+    let bounds = segments.map(|segment| segment_error(segment, &job.settings));
+    bounds.collect()
 }
 
 /// The segments that are arcs.

@@ -3,7 +3,8 @@
 use super::Job;
 use super::beside::Beside;
 use super::figures::Figures;
-use crate::cli::rows::{fixed, or_dash, table};
+use crate::cli::columns::Table;
+use crate::cli::rows::{fixed, fixed_or_dash};
 use motion_rtl::input::Point;
 use motion_rtl::jobs::arc_generator::mechanism::{SpeedChange, Vibrating, Vibration};
 use serde::Serialize;
@@ -118,25 +119,17 @@ pub fn write(rows: &[Row], text: &mut String) -> fmt::Result {
     if rows.is_empty() {
         return Ok(());
     }
-    let heads = [
-        ("from sample to sample      ", 0),
-        ("change of mm/s", 0),
-        ("mm/s2", 9),
-        ("mechanism off its command um", 0),
-        ("at rest um", 0),
-    ];
-    let cells = rows.iter().map(|row| {
-        [
-            format!("{:<27}", row.method),
-            fixed(row.speed_change_mm_per_s, 3),
-            fixed(row.acceleration_mm_per_s2, 3),
-            or_dash(row.moving_um.map(|um| fixed(um, 3))),
-            or_dash(row.rest_um.map(|um| fixed(um, 3))),
-        ]
-    });
-    table(text, heads, cells)?;
-    text.push('\n');
-    Ok(())
+    Table::of(rows)
+        .left("from sample to sample", 27, |row| row.method)
+        .col("change of mm/s", 0, |row| {
+            fixed(row.speed_change_mm_per_s, 3)
+        })
+        .col("mm/s2", 9, |row| fixed(row.acceleration_mm_per_s2, 3))
+        .col("mechanism off its command um", 0, |row| {
+            fixed_or_dash(row.moving_um, 3)
+        })
+        .col("at rest um", 0, |row| fixed_or_dash(row.rest_um, 3))
+        .write_apart(text)
 }
 
 #[cfg(test)]

@@ -8,7 +8,6 @@ mod mechanism;
 mod operations;
 mod picture;
 mod products;
-mod rows;
 mod summary;
 mod text;
 mod verdict;
@@ -100,6 +99,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     if job.loaded.scenario.beside() {
         figures.beside = Beside::run(job, Method::new, figures.blended.as_ref())?;
         figures.even = Beside::run(job, Method::even, None)?;
+        figures.compare_arcs();
     }
     progress::stage("summary and picture");
     files.write("svg", &draw(job, &figures))?;

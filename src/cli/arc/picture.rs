@@ -3,8 +3,8 @@
 
 use super::Job;
 use super::figures::{ArcFigures, Blended, Figures};
-use super::rows::bound;
 use super::view::path;
+use motion_rtl::jobs::arc_generator::bounds::segment_error;
 use motion_rtl::jobs::arc_generator::measure::SampleMeasured;
 use motion_rtl::jobs::arc_generator::prepared::Segment;
 use motion_rtl::picture::{Curve, Panel, Picture};
@@ -165,8 +165,8 @@ fn radius_error(job: &Job, figures: &Figures) -> Panel {
         errors.push(GAP);
     }
     let limit = |sign: f64| {
-        let bounds =
-            arcs(job, figures).map(|(segment, arc)| (segment, sign * bound(job, arc) * 1e3));
+        let bound = |segment| sign * segment_error(segment, &job.settings) * 1e3;
+        let bounds = arcs(job, figures).map(|(segment, _)| (segment, bound(segment)));
         steps(job, bounds)
     };
     let limits = [limit(1.0), limit(-1.0)].concat();

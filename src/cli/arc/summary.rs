@@ -7,11 +7,11 @@ use super::figures::Figures;
 use super::mechanism;
 use super::operations;
 use super::products::{self, Products};
-use super::rows::{self, ArcRow, BlendRow, LineRow};
-use super::verdict::{bounds, complaints};
+use super::verdict::complaints;
 use crate::cli::report::Outcome;
 use motion_rtl::circuits::arc_generator::Widths;
 use motion_rtl::jobs::arc_generator::job::Played;
+use motion_rtl::jobs::arc_generator::measure::Measured;
 use motion_rtl::jobs::arc_generator::settings::{Settings, least_sample_ticks};
 use motion_rtl::path::record::WORDS;
 use motion_rtl::sim::RunError;
@@ -39,13 +39,9 @@ pub struct Summary {
     pub end_position: [i64; 3],
     /// The end of the path before it is rounded, in counts.
     pub end_demanded: [f64; 3],
-    /// Largest distance of a command from its exact point.
-    pub error_max_um: f64,
-    /// Bound of `error_max_um`.
-    pub error_bound_um: f64,
-    pub arcs: Vec<ArcRow>,
-    pub lines: Vec<LineRow>,
-    pub blends: Vec<BlendRow>,
+    /// Measures of the commands.
+    #[serde(flatten)]
+    pub measured: Measured,
     /// Bits of the path's records.
     pub record_bits: u64,
     /// Bits of all of its commands, had they been stored beforehand.
@@ -69,11 +65,11 @@ impl Summary {
     /// The summary of a path that was played.
     pub fn new(job: &Job, played: &Played, figures: &Figures) -> Result<Self, RunError> {
         let settings = &job.settings;
-        let arcs = rows::arcs(job, figures);
-        let complaints = complaints(job, played, figures, &arcs);
+        let complaints = complaints(job, played, figures);
+        let measured = figures.measured.clone();
+        let measured = measured.unwrap_or_else(|| Measured::planned(&job.prepared, settings));
         let last = played.last;
         let end = job.prepared.pieces.last();
-        let mm = |mm: f64| mm * 1e3;
         let widths = Widths::FULL;
         let bits = |rows: u64, words: usize, width: usize| rows * (words * width) as u64;
         let input = match &job.drawing {
@@ -96,19 +92,12 @@ impl Summary {
             end_demanded: end.map_or([0.0; 3], |piece| {
                 piece.to.map(|mm| mm * settings.counts_per_mm)
             }),
-            error_max_um: figures
-                .measured
-                .as_ref()
-                .map_or(0.0, |m| mm(m.largest_error)),
-            error_bound_um: mm(bounds(job, &figures.arcs).into_iter().fold(0.0, f64::max)),
-            arcs,
-            lines: rows::lines(job),
-            blends: rows::blends(job, figures),
             record_bits: bits(job.records.len() as u64, WORDS, widths.data),
             point_bits: bits(played.samples, 3, widths.position),
             products: products::products(job, figures),
             operations: operations::rows(job),
-            circuits: beside::rows(job, played, figures)?,
+            circuits: beside::rows(job, played, figures, &measured)?,
+            measured,
             speed_changes: mechanism::rows(job, figures),
             arm: arm::rows(job),
         })

@@ -1,12 +1,12 @@
 //! The summary for people.
 
 use super::mechanism;
-use super::rows::{ArcRow, BlendRow, LineRow};
 use super::summary::Summary;
 use crate::cli::columns::Table;
 use crate::cli::report::{Outcome, Report};
-use crate::cli::rows::{fixed, more, or_dash, table, worst};
+use crate::cli::rows::{fixed, fixed_or_dash, more, or_dash, worst};
 use motion_rtl::input::Point;
+use motion_rtl::jobs::arc_generator::measure::{ArcMeasured, BlendMeasured, LinePlanned};
 use std::fmt::{self, Write};
 
 impl Report for Summary {
@@ -41,8 +41,8 @@ impl Report for Summary {
                 true => ", where the path does",
                 false => "",
             },
-            self.error_max_um,
-            self.error_bound_um,
+            self.measured.error_max_um,
+            self.measured.error_bound_um,
             self.record_bits,
             self.point_bits
         )?;
@@ -67,58 +67,41 @@ fn point(point: Point, decimals: usize) -> String {
 
 impl Summary {
     fn arcs(&self, text: &mut String, all: bool) -> fmt::Result {
-        let error = |row: &ArcRow| {
+        let error = |row: &ArcMeasured| {
             let [least, largest] = row.radius_error_um;
             largest.max(-least)
         };
-        let (rows, left) = worst(&self.arcs, all, error);
+        let (rows, left) = worst(&self.measured.arcs, all, error);
         if rows.is_empty() {
             return Ok(());
         }
-        let heads = [
-            ("arc: piece", 0),
-            ("line", 0),
-            ("radius mm", 9),
-            ("angle deg", 9),
-            ("samples", 7),
-            ("step deg", 8),
-            ("mm/s", 8),
-            ("wanted", 8),
-            ("measured", 8),
-            ("deviation", 0),
-        ];
-        let cells = rows.iter().map(|row| {
-            [
-                row.piece.to_string(),
-                or_dash(row.line),
-                fixed(row.radius_mm, 3),
-                fixed(row.angle_deg, 3),
-                row.samples.to_string(),
-                fixed(row.step_deg, 4),
-                fixed(row.speed_mm_per_s.expected, 3),
-                fixed(row.speed_wanted_mm_per_s, 3),
-                fixed(row.speed_mm_per_s.measured, 3),
-                fixed(row.speed_deviation_mm_per_s, 3),
-            ]
-        });
-        table(text, heads, cells)?;
+        Table::of(&rows)
+            .col("arc: piece", 0, |row| row.piece)
+            .col("line", 0, |row| or_dash(row.line))
+            .col("radius mm", 9, |row| fixed(row.radius_mm, 3))
+            .col("angle deg", 9, |row| fixed(row.angle_deg, 3))
+            .col("samples", 7, |row| row.samples)
+            .col("step deg", 8, |row| fixed(row.step_deg, 4))
+            .col("mm/s", 8, |row| fixed(row.speed_mm_per_s.expected, 3))
+            .col("wanted", 8, |row| fixed(row.speed_wanted_mm_per_s, 3))
+            .col("measured", 8, |row| fixed(row.speed_mm_per_s.measured, 3))
+            .col("deviation", 0, |row| fixed(row.speed_deviation_mm_per_s, 3))
+            .write(text)?;
         more(text, left, "of smaller radius error")?;
-        if all || self.arcs.len() == 1 {
-            let heads = [("arc: piece", 0), ("centre in mm", 30), ("axis", 26)];
-            let cells = rows.iter().map(|row| {
-                let (centre, axis) = (point(row.centre_mm, 3), point(row.axis, 4));
-                [row.piece.to_string(), centre, axis]
-            });
-            table(text, heads, cells)?;
-            text.push('\n');
+        if all || self.measured.arcs.len() == 1 {
+            Table::of(&rows)
+                .col("arc: piece", 0, |row| row.piece)
+                .col("centre in mm", 30, |row| point(row.centre_mm, 3))
+                .col("axis", 26, |row| point(row.axis, 4))
+                .write_apart(text)?;
         }
         radius_errors(text, &rows)?;
         ends(text, &rows)
     }
 
     fn lines(&self, text: &mut String, all: bool) -> fmt::Result {
-        let slower = |row: &LineRow| 1.0 - row.speed_mm_per_s / row.speed_wanted_mm_per_s;
-        let (rows, left) = worst(&self.lines, all, slower);
+        let slower = |row: &LinePlanned| 1.0 - row.speed_mm_per_s / row.speed_wanted_mm_per_s;
+        let (rows, left) = worst(&self.measured.lines, all, slower);
         if rows.is_empty() {
             return Ok(());
         }
@@ -134,37 +117,30 @@ impl Summary {
     }
 
     fn blends(&self, text: &mut String, all: bool) -> fmt::Result {
-        let peak = |row: &BlendRow| row.peak_acceleration_mm_per_s2.measured;
-        let (rows, left) = worst(&self.blends, all, peak);
+        let peak = |row: &BlendMeasured| row.peak_acceleration_mm_per_s2.measured;
+        let (rows, left) = worst(&self.measured.blends, all, peak);
         if rows.is_empty() {
             return Ok(());
         }
-        let heads = [
-            ("blend: piece", 0),
-            ("line", 0),
-            ("", 9),
-            ("turn deg", 8),
-            ("peak mm/s2", 0),
-            ("3S/(2ta)2", 9),
-            ("to the corner um", 0),
-            ("3S/16", 8),
-            ("off the path um", 0),
-        ];
-        let cells = rows.into_iter().map(|row| {
-            let (peak, corner) = (row.peak_acceleration_mm_per_s2, row.corner_distance_um);
-            [
-                row.piece.to_string(),
-                or_dash(row.line),
-                row.kind.to_owned(),
-                or_dash(row.turn_deg.map(|turn| fixed(turn, 3))),
-                fixed(peak.measured, 3),
-                fixed(peak.expected, 3),
-                or_dash(corner.map(|pair| fixed(pair.measured, 3))),
-                or_dash(corner.map(|pair| fixed(pair.expected, 3))),
-                fixed(row.off_path_um, 3),
-            ]
-        });
-        table(text, heads, cells)?;
+        Table::of(rows)
+            .col("blend: piece", 0, |row| row.piece)
+            .col("line", 0, |row| or_dash(row.line))
+            .col("", 9, |row| row.kind)
+            .col("turn deg", 8, |row| fixed_or_dash(row.turn_deg, 3))
+            .col("peak mm/s2", 0, |row| {
+                fixed(row.peak_acceleration_mm_per_s2.measured, 3)
+            })
+            .col("3S/(2ta)2", 9, |row| {
+                fixed(row.peak_acceleration_mm_per_s2.expected, 3)
+            })
+            .col("to the corner um", 0, |row| {
+                fixed_or_dash(row.corner_distance_um.map(|pair| pair.measured), 3)
+            })
+            .col("3S/16", 8, |row| {
+                fixed_or_dash(row.corner_distance_um.map(|pair| pair.expected), 3)
+            })
+            .col("off the path um", 0, |row| fixed(row.off_path_um, 3))
+            .write(text)?;
         more(text, left, "of smaller acceleration")
     }
 
@@ -180,115 +156,74 @@ impl Summary {
             .col("ticks", 0, |row| or_dash(row.ticks))
             .write_apart(text)
     }
-}
 
-impl Summary {
     fn circuits(&self, text: &mut String) -> fmt::Result {
         if self.circuits.is_empty() {
             return Ok(());
         }
-        let heads = [
-            ("from a sampling time to the next point, ticks", 0),
-            ("blend", 0),
-            ("arc", 4),
-            ("segment", 0),
-            ("most", 4),
-            ("in time", 0),
-        ];
-        let cells = self.circuits.iter().map(|row| {
-            let in_time = if row.in_time { "yes" } else { "no" };
-            [
-                format!("{:<45}", row.circuit),
-                or_dash(row.ticks_straight),
-                or_dash(row.ticks_arc),
-                or_dash(row.ticks_change),
-                row.ticks_most.to_string(),
-                in_time.to_owned(),
-            ]
-        });
-        table(text, heads, cells)?;
-        text.push('\n');
-        let heads = [
-            ("a circuit has                                ", 0),
-            ("adders", 0),
-            ("their bits", 0),
-            ("flip-flops", 0),
-            ("error um", 0),
-            ("bound um", 0),
-        ];
-        let cells = self.circuits.iter().map(|row| {
-            [
-                format!("{:<45}", row.circuit),
-                row.adders.to_string(),
-                row.adder_bits.to_string(),
-                row.flip_flops.to_string(),
-                fixed(row.error_max_um, 3),
-                fixed(row.error_bound_um, 3),
-            ]
-        });
-        table(text, heads, cells)?;
-        text.push('\n');
-        Ok(())
+        let ticks = "from a sampling time to the next point, ticks";
+        Table::of(&self.circuits)
+            .left(ticks, 0, |row| row.circuit)
+            .col("blend", 0, |row| or_dash(row.ticks_straight))
+            .col("arc", 4, |row| or_dash(row.ticks_arc))
+            .col("segment", 0, |row| or_dash(row.ticks_change))
+            .col("most", 4, |row| row.ticks_most)
+            .col("in time", 0, |row| if row.in_time { "yes" } else { "no" })
+            .write_apart(text)?;
+        Table::of(&self.circuits)
+            .left("a circuit has", ticks.len(), |row| row.circuit)
+            .col("adders", 0, |row| row.adders)
+            .col("their bits", 0, |row| row.adder_bits)
+            .col("flip-flops", 0, |row| row.flip_flops)
+            .col("error um", 0, |row| fixed(row.error_max_um, 3))
+            .col("bound um", 0, |row| fixed(row.error_bound_um, 3))
+            .write_apart(text)
     }
 }
 
-fn radius_errors(text: &mut String, rows: &[&ArcRow]) -> fmt::Result {
-    let compared = rows
-        .iter()
-        .any(|row| row.conventional_radius_error_um.is_some());
-    let mut heads = vec![
-        ("radius error um: piece", 0),
-        ("least", 7),
-        ("largest", 7),
-        ("rms", 7),
-        ("at C-", 7),
-        ("bound", 7),
-    ];
-    heads.extend(compared.then_some(("conventional", 0)));
-    let cells = rows.iter().map(|row| {
-        let [least, largest] = row.radius_error_um;
-        let (rms, end) = (row.radius_error_rms_um, row.end_error_um);
-        let own = [least, largest, rms, end, row.bound_um];
-        let all = own.into_iter().chain(row.conventional_radius_error_um);
-        let piece = std::iter::once(row.piece.to_string());
-        piece.chain(all.map(|um| fixed(um, 3))).collect::<Vec<_>>()
-    });
-    table(text, heads, cells)?;
-    text.push('\n');
-    Ok(())
+fn radius_errors(text: &mut String, rows: &[&ArcMeasured]) -> fmt::Result {
+    let mut table = Table::of(rows)
+        .col("radius error um: piece", 0, |row| row.piece)
+        .col("least", 7, |row| fixed(row.radius_error_um[0], 3))
+        .col("largest", 7, |row| fixed(row.radius_error_um[1], 3))
+        .col("rms", 7, |row| fixed(row.radius_error_rms_um, 3))
+        .col("at C-", 7, |row| fixed(row.end_error_um, 3))
+        .col("bound", 7, |row| fixed(row.bound_um, 3));
+    let conventional = |row: &ArcMeasured| row.conventional_radius_error_um;
+    if rows.iter().any(|row| conventional(row).is_some()) {
+        table = table.col("conventional", 0, |row| fixed_or_dash(conventional(row), 3));
+    }
+    table.write_apart(text)
 }
 
-fn ends(text: &mut String, rows: &[&ArcRow]) -> fmt::Result {
-    let heads = [
-        ("jumps: piece", 0),
-        ("at", 0),
-        ("direction deg", 0),
-        ("asin(v ta/2R)", 0),
-        ("mm/s2", 8),
-        ("v2/R", 8),
-        ("blend off the arc um", 0),
-        ("exact", 7),
-        ("(v ta)2/8R", 0),
-    ];
+fn ends(text: &mut String, rows: &[&ArcMeasured]) -> fmt::Result {
     let ends = rows
         .iter()
         .flat_map(|row| row.ends.iter().map(|end| (row.piece, end)));
-    let cells = ends.map(|(piece, end)| {
-        let (direction, acceleration) = (end.direction_jump_deg, end.acceleration_jump_mm_per_s2);
-        let off = end.off_arc_um;
-        [
-            piece.to_string(),
-            end.at.to_owned(),
-            fixed(direction.measured, 4),
-            fixed(direction.expected, 4),
-            fixed(acceleration.measured, 3),
-            fixed(acceleration.expected, 3),
-            off.map_or("joint".to_owned(), |pair| fixed(pair.measured, 3)),
-            or_dash(off.map(|pair| fixed(pair.expected, 3))),
-            or_dash(end.off_arc_estimate_um.map(|um| fixed(um, 3))),
-        ]
-    });
-    table(text, heads, cells)?;
-    text.push('\n');
-    Ok(())
+    Table::of(ends)
+        .col("jumps: piece", 0, |(piece, _)| *piece)
+        .col("at", 0, |(_, end)| end.at)
+        .col("direction deg", 0, |(_, end)| {
+            fixed(end.direction_jump_deg.measured, 4)
+        })
+        .col("asin(v ta/2R)", 0, |(_, end)| {
+            fixed(end.direction_jump_deg.expected, 4)
+        })
+        .col("mm/s2", 8, |(_, end)| {
+            fixed(end.acceleration_jump_mm_per_s2.measured, 3)
+        })
+        .col("v2/R", 8, |(_, end)| {
+            fixed(end.acceleration_jump_mm_per_s2.expected, 3)
+        })
+        .col("blend off the arc um", 0, |(_, end)| {
+            let off = end.off_arc_um.map(|pair| fixed(pair.measured, 3));
+            off.unwrap_or("joint".to_owned())
+        })
+        .col("exact", 7, |(_, end)| {
+            fixed_or_dash(end.off_arc_um.map(|pair| pair.expected), 3)
+        })
+        .col("(v ta)2/8R", 0, |(_, end)| {
+            fixed_or_dash(end.off_arc_estimate_um, 3)
+        })
+        .write_apart(text)
 }

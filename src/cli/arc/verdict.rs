@@ -1,14 +1,12 @@
 //! Verdict on a run: its commands against the path.
 
 use super::Job;
-use super::figures::{ArcFigures, Figures};
-use super::rows::{ArcRow, bound};
-use motion_rtl::circuits::arc_generator::{Blend, Widths};
-use motion_rtl::jobs::arc_generator::bounds::product_error;
+use super::figures::Figures;
+use motion_rtl::circuits::arc_generator::Widths;
 use motion_rtl::jobs::arc_generator::job::Played;
 
 /// Returns the complaints about a run; empty if there are none.
-pub fn complaints(job: &Job, played: &Played, figures: &Figures, arcs: &[ArcRow]) -> Vec<String> {
+pub fn complaints(job: &Job, played: &Played, figures: &Figures) -> Vec<String> {
     let mut all = Vec::new();
     if played.late {
         all.push("a sampling time began before its point was ready".to_owned());
@@ -22,7 +20,7 @@ pub fn complaints(job: &Job, played: &Played, figures: &Figures, arcs: &[ArcRow]
         return all;
     }
     all.extend(end(job, played));
-    for arc in arcs {
+    for arc in figures.measured.iter().flat_map(|own| &own.arcs) {
         let [least, most] = arc.radius_error_um;
         let (error, bound) = (most.max(-least), arc.bound_um);
         if error > bound {
@@ -53,32 +51,10 @@ fn end(job: &Job, played: &Played) -> Option<String> {
     (!exact).then(|| format!("ends at {counts:?} counts, the path at {wanted:.3?}"))
 }
 
-/// Returns the error bound of each segment's samples in mm.
-pub fn bounds(job: &Job, arcs: &[ArcFigures]) -> Vec<f64> {
-    let mut bounds = vec![straight(job); job.prepared.segments.len()];
-    for arc in arcs {
-        bounds[arc.segment] = bound(job, arc);
-    }
-    bounds
-}
-
-/// Returns the error bound on lines and blends in mm. Their points are exact except for rounding:
-/// √3/2 counts, and √3/2 guard units each for input and output. Blends by products add their error.
-fn straight(job: &Job) -> f64 {
-    let widths = Widths::FULL;
-    let unit = (-(widths.guard() as f64)).exp2();
-    let products = match job.settings.blend {
-        Blend::Differences => 0.0,
-        Blend::Products => product_error(&widths),
-    };
-    3f64.sqrt() * (0.5 + unit + products) / job.settings.counts_per_mm
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::cli::arc::figures::UnderWay;
-    use crate::cli::arc::rows::arcs;
     use crate::cli::source::{Input, Source};
     use motion_rtl::jobs::arc_generator::job::Command;
     use motion_rtl::jobs::arc_generator::reference;
@@ -115,7 +91,7 @@ mod tests {
             ..played.clone()
         };
         let figures = under_way.finish();
-        complaints(job, &played, &figures, &arcs(job, &figures))
+        complaints(job, &played, &figures)
     }
 
     #[test]

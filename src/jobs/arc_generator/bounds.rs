@@ -5,8 +5,10 @@
 //! |ρ| <= √3·2^-(G+1) to the nearest, twice that towards minus infinity. R keeps lengths, so with
 //! ε = 3·2^-(B+1) the error follows e ← (1 + ε)·e + ε·r + |ρ|, in first order n·(ε·r + |ρ|).
 
+use super::prepared::{Segment, Shape};
+use super::settings::Settings;
 use crate::circuits::arc_generator::sine_words::FINE;
-use crate::circuits::arc_generator::{Rounding, Widths};
+use crate::circuits::arc_generator::{Blend, Rounding, Widths};
 use crate::circuits::blocks::cordic_state::GAIN;
 use std::f64::consts::TAU;
 
@@ -57,6 +59,24 @@ pub fn product_error(widths: &Widths) -> f64 {
 #[must_use]
 pub fn command_error(radius: f64, steps: u64, widths: &Widths, rounding: Rounding) -> f64 {
     rotation_error(radius, steps, widths, rounding) + 3f64.sqrt() / 2.0
+}
+
+/// Returns the greatest distance, in mm, of a position command of a segment from the exact point of
+/// its sample. Points of lines and blends are exact except for rounding: √3/2 counts, and √3/2
+/// guard units each for input and output. Blends by products add their error.
+#[must_use]
+pub fn segment_error(segment: &Segment, settings: &Settings) -> f64 {
+    let (widths, per_mm) = (Widths::FULL, settings.counts_per_mm);
+    if let Shape::Arc { circle, .. } = segment.shape {
+        let (radius, rounding) = (circle.radius * per_mm, settings.rounding);
+        return command_error(radius, segment.samples, &widths, rounding) / per_mm;
+    }
+    let unit = (-(widths.guard() as f64)).exp2();
+    let products = match settings.blend {
+        Blend::Differences => 0.0,
+        Blend::Products => product_error(&widths),
+    };
+    3f64.sqrt() * (0.5 + unit + products) / per_mm
 }
 
 /// Returns the greatest distance, in counts, of a position command of the conventional circuit

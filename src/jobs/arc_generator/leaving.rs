@@ -55,9 +55,9 @@ impl Leaving {
         Joint {
             segment: self.segment,
             sample: self.sample,
-            direction_jump,
-            velocity_jump: distance(leaves, enters),
-            acceleration_jump: distance(curves_before, curves_behind) / (ts * ts),
+            direction_jump_deg: direction_jump.to_degrees(),
+            velocity_jump_mm_per_s: distance(leaves, enters),
+            acceleration_jump_mm_per_s2: distance(curves_before, curves_behind) / (ts * ts),
         }
     }
 }

@@ -8,6 +8,7 @@ use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::prepared::Kind;
 use motion_rtl::jobs::arc_generator::record::records;
 use motion_rtl::jobs::arc_generator::reference::commands;
+use motion_rtl::jobs::arc_generator::settings::Settings;
 
 const COUNTS: f64 = 1000.0;
 
@@ -23,14 +24,27 @@ fn path() -> Prepared {
     prepare(a, &pieces, &timing(64)).unwrap()
 }
 
+fn two_lines() -> Prepared {
+    let pieces = [line([10.0, 0.0, 0.0], 20.0), line([20.0, 0.0, 0.0], 20.0)];
+    prepare([0.0; 3], &pieces, &timing(64)).unwrap()
+}
+
 fn played(path: &Prepared) -> Vec<[i64; 3]> {
     let records = records(path, COUNTS, &Widths::FULL, Rounding::Nearest).unwrap();
     commands(&records, &Widths::FULL, Rounding::Nearest).collect()
 }
 
+fn settings() -> Settings {
+    Settings {
+        counts_per_mm: COUNTS,
+        ..Settings::default()
+    }
+}
+
 /// Measures of every sample.
 fn samples(path: &Prepared, commands: &[[i64; 3]]) -> Vec<SampleMeasured> {
-    let mut measuring = Measuring::new(path, COUNTS);
+    let settings = settings();
+    let mut measuring = Measuring::new(path, &settings);
     let each = commands.iter().map(|counts| measuring.take(*counts));
     each.map(Option::unwrap).collect()
 }
@@ -41,7 +55,7 @@ fn jumps_at_the_joints_are_those_of_the_report() {
     let kinds: Vec<_> = path.segments.iter().map(Segment::kind).collect();
     use Kind::{Arc, Blend, Line};
     assert_eq!(kinds, [Blend, Arc, Blend, Line, Blend, Blend, Line, Blend]);
-    let measured = Measured::of(&path, COUNTS, &played(&path)).unwrap();
+    let measured = Measured::of(&path, &settings(), &played(&path)).unwrap();
     let report = path.pieces[0].arc.unwrap();
     assert_eq!(measured.joints.len(), 7);
     for (index, joint) in measured.joints.iter().enumerate() {
@@ -59,16 +73,42 @@ fn jumps_at_the_joints_are_those_of_the_report() {
             _ => (0.0, 0.0),
         };
         assert!(
-            (joint.direction_jump - direction).abs() < 0.004,
+            (joint.direction_jump_deg.to_radians() - direction).abs() < 0.004,
             "{joint:?}"
         );
         assert!(
-            (joint.acceleration_jump - acceleration).abs() < 40.0,
+            (joint.acceleration_jump_mm_per_s2 - acceleration).abs() < 40.0,
             "{joint:?}"
         );
         let speed = 2.0 * path.pieces[0].speed * (direction / 2.0).sin();
-        assert!((joint.velocity_jump - speed).abs() < 0.2, "{joint:?}");
+        assert!(
+            (joint.velocity_jump_mm_per_s - speed).abs() < 0.2,
+            "{joint:?}"
+        );
     }
+    let [arc] = &measured.arcs[..] else {
+        panic!("one arc")
+    };
+    let seen: Vec<_> = arc.ends.iter().map(|end| (end.at, end.rest)).collect();
+    assert_eq!(seen, [("A+", true), ("C-", false)]);
+    for (end, joint) in arc.ends.iter().zip(&measured.joints) {
+        let [direction, acceleration] = [end.direction_jump_deg, end.acceleration_jump_mm_per_s2];
+        assert_eq!(direction.measured, joint.direction_jump_deg);
+        assert_eq!(direction.expected, report.direction_jump.to_degrees());
+        assert_eq!(acceleration.measured, joint.acceleration_jump_mm_per_s2);
+        assert_eq!(acceleration.expected, report.acceleration_jump);
+    }
+    let [begin, end] = [arc.ends[0], arc.ends[1]];
+    let off = begin.off_arc_um.unwrap();
+    assert_eq!(off.measured, measured.blends[0].off_path_um);
+    assert_eq!(off.expected, report.blend_distance * 1e3);
+    assert_eq!((end.off_arc_um, end.off_arc_estimate_um), (None, None));
+    let lines: Vec<_> = measured
+        .lines
+        .iter()
+        .map(|line| (line.piece, line.length_mm))
+        .collect();
+    assert_eq!(lines, [(1, 30.0), (2, 40.0)]);
     // 4.8 mm/100 over 40 mm, and v²/R.
     assert!((report.direction_jump - 0.024).abs() < 1e-3);
     assert!((report.acceleration_jump - 45.0).abs() < 0.5);
@@ -78,7 +118,7 @@ fn jumps_at_the_joints_are_those_of_the_report() {
 fn speeds_and_distances_are_measured() {
     let path = path();
     let commands = played(&path);
-    let measured = Measured::of(&path, COUNTS, &commands).unwrap();
+    let measured = Measured::of(&path, &settings(), &commands).unwrap();
     let seen = samples(&path, &commands);
     let speeds: Vec<_> = seen.iter().filter_map(|sample| sample.speed).collect();
     assert_eq!(speeds.len(), commands.len() - 1);
@@ -92,42 +132,56 @@ fn speeds_and_distances_are_measured() {
         own.iter()
             .all(|speed| (speed - 30.0).abs() < 0.1 + 3f64.sqrt())
     );
-    let [round] = measured.arcs[..] else {
+    let [round] = &measured.arcs[..] else {
         panic!("one arc")
     };
     assert_eq!(round.segment, 1);
-    let most = command_error(20_000.0, arc.samples, &Widths::FULL, Rounding::Nearest) / COUNTS;
-    assert!(-most <= round.radius_errors[0] && round.radius_errors[1] <= most);
-    assert!(round.radius_errors[0] < -0.0003 && round.radius_errors[1] > 0.0003);
-    assert!(round.off_plane < most && round.off_plane > 0.0003 && round.end_error < most);
-    assert!((round.speed / path.pieces[0].speed - 1.0).abs() < 0.01);
-    assert!(measured.largest_error < most && measured.largest_error > 0.0005);
+    let most = command_error(20_000.0, arc.samples, &Widths::FULL, Rounding::Nearest);
+    let [least, largest] = round.radius_error_um;
+    assert!(-most <= least && largest <= most);
+    assert!(least < -0.3 && largest > 0.3);
+    assert!(round.off_plane_um < most && round.off_plane_um > 0.3 && round.end_error_um < most);
+    assert!((round.speed_mm_per_s.measured / path.pieces[0].speed - 1.0).abs() < 0.01);
+    assert!(measured.error_max_um < most && measured.error_max_um > 0.5);
+    // A count is a micrometre. The arc's bound is larger than that of lines and blends.
+    assert!((round.bound_um - most).abs() < 1e-12, "{round:?}");
+    assert_eq!(measured.error_bound_um, round.bound_um);
+    let straight = Measured::planned(&two_lines(), &settings()).error_bound_um;
+    assert!((straight - 0.75f64.sqrt()).abs() < 1e-4 && straight > 0.75f64.sqrt());
     // Blends: from rest on the chord.
     let report = path.pieces[0].arc.unwrap();
     assert_eq!(measured.blends.len(), 5);
     let first = measured.blends[0];
     assert!(
-        (first.off_path - report.blend_distance).abs() < 0.0009,
+        (first.off_path_um - report.blend_distance * 1e3).abs() < 0.9,
         "{first:?}"
     );
-    assert!((first.from_corner - 0.0).abs() < 1e-12);
+    assert_eq!((first.kind, first.corner_distance_um), ("from rest", None));
     let peak = before.peak_acceleration(&path.timing).unwrap();
     // One second difference of counts may be off by 4·√3/2, their fit is not.
     assert!(
-        (first.peak_acceleration / peak - 1.0).abs() < 0.005,
+        (first.peak_acceleration_mm_per_s2.measured / peak - 1.0).abs() < 0.005,
         "{first:?} {peak}"
     );
-    // The stop ends at its corner, the blend from arc to line passes its own as its points do.
-    assert!(measured.blends[2].from_corner < 1e-12);
+    assert_eq!(first.peak_acceleration_mm_per_s2.expected, peak);
+    // The stop is no joint; the blend from arc to line passes its corner as its points do.
+    assert_eq!(
+        (measured.blends[2].kind, measured.blends[2].turn_deg),
+        ("to rest", None)
+    );
     let points = (0..=64).map(|step| path.segments[2].point(step));
     let nearest = points
         .map(|p| length(minus(p, path.pieces[0].to)))
         .fold(1.0, f64::min);
     let corner = measured.blends[1];
+    let distance = corner.corner_distance_um.unwrap();
     assert!(
-        (corner.from_corner - nearest).abs() < 0.001 && nearest < 0.02,
+        (distance.measured / 1e3 - nearest).abs() < 0.001 && nearest < 0.02,
         "{corner:?}"
     );
+    assert!((distance.expected / 1e3 - nearest).abs() < 0.001);
+    assert_eq!((corner.kind, corner.piece), ("joint", 0));
+    assert!(corner.turn_deg.unwrap().abs() < 1e-6, "{corner:?}");
 }
 
 #[test]
@@ -137,14 +191,14 @@ fn a_wrong_sample_is_found() {
     let arc = path.segments[1];
     let sample = (arc.first_sample + 100) as usize;
     commands[sample][0] += 50;
-    let measured = Measured::of(&path, COUNTS, &commands).unwrap();
-    assert!(measured.largest_error > 0.049);
+    let measured = Measured::of(&path, &settings(), &commands).unwrap();
+    assert!(measured.error_max_um > 49.0);
     let seen = samples(&path, &commands);
     let accelerations = seen.iter().filter_map(|sample| sample.acceleration);
     assert!(accelerations.max_by(f64::total_cmp) > Some(90_000.0));
     assert!(seen[sample + 1].acceleration > Some(90_000.0));
     commands.pop();
-    assert_eq!(Measured::of(&path, COUNTS, &commands), None);
+    assert_eq!(Measured::of(&path, &settings(), &commands), None);
 }
 
 /// Every measure as it is defined, from all samples at once.
@@ -199,10 +253,10 @@ fn measures_are_those_of_all_samples_at_once() {
             (k > 1).then(|| length(second(k)) / (ts * ts))
         );
     }
-    let measured = Measured::of(&path, COUNTS, &commands).unwrap();
+    let measured = Measured::of(&path, &settings(), &commands).unwrap();
     assert_eq!(
-        measured.largest_error,
-        largest(&seen.iter().map(|sample| sample.error).collect::<Vec<_>>())
+        measured.error_max_um,
+        1e3 * largest(&seen.iter().map(|sample| sample.error).collect::<Vec<_>>())
     );
     let own = |segment: usize| {
         &points
@@ -214,21 +268,18 @@ fn measures_are_those_of_all_samples_at_once() {
             panic!("another kind")
         };
         assert_eq!(
-            blend.off_path,
-            largest(
+            blend.off_path_um,
+            1e3 * largest(
                 &own.iter()
                     .map(|p| path.distance(segment, *p))
                     .collect::<Vec<_>>()
             )
         );
-        assert_eq!(
-            -blend.from_corner,
-            largest(
-                &own.iter()
-                    .map(|p| -length(minus(*p, corner)))
-                    .collect::<Vec<_>>()
-            )
-        );
+        let nearest = own.iter().map(|p| length(minus(*p, corner)));
+        let nearest = nearest.fold(f64::INFINITY, f64::min);
+        let joint = segment.next_piece.is_some();
+        let seen = blend.corner_distance_um.map(|pair| pair.measured);
+        assert_eq!(seen, joint.then_some(nearest * 1e3));
         // The factor of least squares of the blend's shape in the second differences.
         let n = segment.samples as f64;
         let shape = |k: usize| 4.0 * (k as f64 / n) * (1.0 - k as f64 / n) - 2.0 / (3.0 * n * n);
@@ -246,11 +297,11 @@ fn measures_are_those_of_all_samples_at_once() {
         });
         let peak = length(along) / square / (ts * ts);
         assert!(
-            (blend.peak_acceleration / peak - 1.0).abs() < 1e-12,
+            (blend.peak_acceleration_mm_per_s2.measured / peak - 1.0).abs() < 1e-12,
             "{blend:?} {peak}"
         );
     }
-    let [arc] = measured.arcs[..] else {
+    let [arc] = &measured.arcs[..] else {
         panic!("one arc")
     };
     let (segment, own) = (&path.segments[arc.segment], own(arc.segment));
@@ -260,26 +311,29 @@ fn measures_are_those_of_all_samples_at_once() {
     let off: Vec<_> = own.iter().map(|p| circle.off(*p)).collect();
     let outside: Vec<_> = off.iter().map(|off| off[0]).collect();
     let inwards: Vec<_> = outside.iter().map(|off| -off).collect();
-    assert_eq!(arc.radius_errors, [-largest(&inwards), largest(&outside)]);
     assert_eq!(
-        arc.off_plane,
-        largest(&off.iter().map(|off| off[1].abs()).collect::<Vec<_>>())
+        arc.radius_error_um,
+        [-largest(&inwards), largest(&outside)].map(|mm| mm * 1e3)
     );
     assert_eq!(
-        arc.end_error,
-        length(minus(own[own.len() - 1], segment.point(segment.samples)))
+        arc.off_plane_um,
+        1e3 * largest(&off.iter().map(|off| off[1].abs()).collect::<Vec<_>>())
+    );
+    assert_eq!(
+        arc.end_error_um,
+        1e3 * length(minus(own[own.len() - 1], segment.point(segment.samples)))
     );
     let rms = (outside.iter().map(|off| off * off).sum::<f64>() / own.len() as f64).sqrt();
-    assert!((arc.radius_rms / rms - 1.0).abs() < 1e-12);
+    assert!((arc.radius_error_rms_um / 1e3 / rms - 1.0).abs() < 1e-12);
     let steps: Vec<_> = own.windows(2).map(|p| length(minus(p[1], p[0]))).collect();
     let mean = steps.iter().sum::<f64>() / (ts * segment.samples as f64);
-    assert!((arc.speed / mean - 1.0).abs() < 1e-12);
+    assert!((arc.speed_mm_per_s.measured / mean - 1.0).abs() < 1e-12);
     let wanted = path.pieces[segment.piece].speed;
     let deviations: Vec<_> = steps
         .iter()
         .map(|step| (step / ts - wanted).abs())
         .collect();
-    assert_eq!(arc.speed_deviation, largest(&deviations));
+    assert_eq!(arc.speed_deviation_mm_per_s, largest(&deviations));
 }
 
 /// On either side as many samples as a blend has, and the joint itself.
@@ -287,7 +341,7 @@ fn measures_are_those_of_all_samples_at_once() {
 fn a_joint_is_measured_with_the_samples_next_to_it() {
     let path = path();
     let commands = played(&path);
-    let joints = |commands: &[[i64; 3]]| Measured::of(&path, COUNTS, commands).unwrap().joints;
+    let joints = |commands: &[[i64; 3]]| Measured::of(&path, &settings(), commands).unwrap().joints;
     let (all, most) = (joints(&commands), path.timing.blend_samples);
     let arc = path.segments[1];
     // Into the arc and out of it, which is longer than a blend.
