@@ -94,9 +94,9 @@ fn near(value: f64, expected: f64) {
 
 #[track_caller]
 fn is(found: Farthest, um: f64, reason: Reason, share_um: f64) {
-    assert_eq!(found.reason, reason, "{found:?}");
-    near(found.mm * 1e3, um);
-    near(found.share_mm * 1e3, share_um);
+    assert_eq!(found.reason, Some(reason), "{found:?}");
+    near(found.um, um);
+    near(found.share_um, share_um);
 }
 
 #[test]
@@ -105,9 +105,9 @@ fn of_the_servos_the_largest_share_is_named() {
     let mut case = Case::new("G1 X8 Y6 F1200\n", settings());
     let mut on = |offsets| case.servos(0, [4000, 3000], offsets);
     let far = on([[0, 0], [-6, 8], [-9, 12], [-24, 32]]);
-    near(far.command_mm * 1e3, 0.0);
-    near(far.model_mm * 1e3, 10.0);
-    near(far.motor_mm * 1e3, 15.0);
+    near(far.command_um, 0.0);
+    near(far.model_um, 10.0);
+    near(far.motor_um, 15.0);
     is(far.load, 40.0, Reason::Shaft, 25.0);
     assert_eq!(far.ticks, 10_000..=15_000);
     assert_eq!(far.load.tick, 13_400);
@@ -129,7 +129,9 @@ fn axes_are_told_apart() {
     let far = case.servos(0, [4000, 0], [[0, 0], [7, 0], [9, 0], [9, 30]]);
     is(far.load, 30.0, Reason::Shaft, 30.0);
     let far = case.servos(0, [4000, 0], [[0, 0], [0, 0], [0, 0], [30, 0]]);
-    near(far.load.mm, 0.0);
+    let on_path = (far.load.reason, far.load.share_um);
+    assert_eq!(on_path, (None, 0.0), "{far:?}");
+    near(far.load.um, 0.0);
 }
 
 #[test]
@@ -144,7 +146,7 @@ fn the_lag_is_measured_against_the_command_of_the_same_place() {
     let measured = case.measured();
     let far = measured.pieces[0].servos.clone().unwrap();
     is(far.load, 2.5, Reason::WholeCounts, 2.0);
-    near(far.command_mm * 1e3, 2.0);
+    near(far.command_um, 2.0);
 }
 
 #[test]
@@ -153,7 +155,7 @@ fn an_arc_is_left_by_its_blends() {
     let mut case = Case::new("G3 X5 Y5 I0 J5 F600\n", settings());
     let far = case.servos(0, [5000, 5000], [[-20, 0], [-21, 0], [-21, 0], [-21, 0]]);
     is(far.load, 21.0, Reason::Blend, 20.0);
-    near(far.command_mm * 1e3, 20.0);
+    near(far.command_um, 20.0);
     let far = case.servos(0, [5000, 5000], [[-1, 0], [-1, 0], [-1, 0], [-1, 0]]);
     is(far.load, 1.0, Reason::WholeCounts, 1.0);
 }
@@ -200,10 +202,10 @@ fn between_unit_times_steppers_go_straight_on() {
     let mut case = Case::new("G3 X0 Y0 I2 J0 F1500\n", fine);
     case.step_as_planned();
     let found = case.measured().pieces[0].steppers.farthest.unwrap();
-    assert_eq!(found.reason, Reason::Chord);
+    assert_eq!(found.reason, Some(Reason::Chord));
     // v = 25 mm/s, T = 20 ms, R = 2 mm.
     let sagitta = (25.0f64 * 0.02).powi(2) / (8.0 * 2.0);
-    assert!((found.share_mm - sagitta).abs() < 0.0005, "{found:?}");
+    assert!((found.share_um / 1e3 - sagitta).abs() < 0.0005, "{found:?}");
 }
 
 #[test]
@@ -216,14 +218,14 @@ fn a_corner_within_a_unit_time_is_cut() {
     case.step_as_planned();
     let measured = case.measured();
     let far = [0, 1].map(|piece: usize| measured.pieces[piece].steppers.farthest.unwrap());
-    let cut = if far[0].mm > far[1].mm {
+    let cut = if far[0].um > far[1].um {
         far[0]
     } else {
         far[1]
     };
-    assert_eq!(cut.reason, Reason::Chord);
+    assert_eq!(cut.reason, Some(Reason::Chord));
     // At most a quarter of the way of a unit time from either.
-    assert!(cut.mm > 0.005 && cut.mm <= 0.25 * 25.0 * 0.02, "{cut:?}");
+    assert!(cut.um > 5.0 && cut.um <= 250.0 * 25.0 * 0.02, "{cut:?}");
 }
 
 /// Frames of a long move are not all kept: those around the farthest load are.
@@ -296,14 +298,20 @@ fn both_ends_are_judged_by_the_nearest_step_and_count() {
         ([320, 0], [8000, 5], [8000, 5]);
     let ends = case.measured().ends;
     assert!(ends.exact);
-    assert_eq!(ends.wanted_mm, [8.0, 0.005]);
-    assert_eq!(ends.stepper_mm, [8.0, 0.0]);
+    assert_eq!(ends.end_mm, [8.0, 0.005]);
+    let servo = ([8.0, 0.005], [8000, 5], [8000, 5], "counts");
+    let seen = ends
+        .ends
+        .map(|end| (end.mm, end.position, end.wanted, end.unit));
     assert_eq!(
-        (ends.command_mm, ends.motor_mm),
-        ([8.0, 0.005], [8.0, 0.005])
+        seen,
+        [([8.0, 0.0], [320, 0], [320, 0], "steps"), servo, servo]
     );
-    assert_eq!(ends.stepper_steps, [[320, 0], [320, 0]]);
-    assert_eq!(ends.command_counts, [[8000, 5], [8000, 5]]);
+    assert_eq!(
+        ends.ends.map(|end| end.what),
+        ["steppers", "commands", "encoders"]
+    );
+    near(ends.apart_um, 5.0);
     let wrong: [fn(&mut Played); 5] = [
         |played| played.stepper = [0, 320],
         |played| played.stepper[1] += 1,

@@ -1,19 +1,11 @@
-//! The figures of a run: of each piece of the path, of each machine's end, of the pen lift.
+//! The figures of a run: of each piece of the path and of the pen lift.
 
 use super::Job;
 use motion_rtl::jobs::machine::job::Played;
-use motion_rtl::jobs::machine::measure::{Ends, Farthest, Measured, PieceMeasured};
+use motion_rtl::jobs::machine::measure::{Farthest, Measured, PieceMeasured};
 use motion_rtl::path::pieces::Course;
 use serde::Serialize;
 use std::ops::RangeInclusive;
-
-/// Name of the servo motors in the table of ends.
-pub const ENCODERS: &str = "encoders";
-/// Name of the step motors in the table of ends.
-pub const STEPPERS: &str = "steppers";
-
-/// A point as near is on the path: floating point puts it there.
-const ON_PATH_MM: f64 = 1e-9;
 
 /// A piece of the path by both machines.
 #[derive(Debug, Serialize)]
@@ -27,7 +19,7 @@ pub struct PieceRow {
     /// Length.
     pub length_mm: f64,
     /// Farthest point of the steppers; `None` if no unit time ended on the piece.
-    pub steppers: Option<FarthestRow>,
+    pub steppers: Option<Farthest>,
     /// Time that the steppers took.
     pub steppers_s: f64,
     /// Largest distance of the servos' commands; `None` if the servos did not reach the piece.
@@ -37,34 +29,11 @@ pub struct PieceRow {
     /// Largest distance of the motors.
     pub motor_um: Option<f64>,
     /// Farthest point of the loads.
-    pub load: Option<FarthestRow>,
+    pub load: Option<Farthest>,
     /// Counts that the correction left the motors beside the piece's end.
     pub left_by_correction: Option<[i64; 2]>,
     /// Time that the servos took, until their motors were in position.
     pub servos_s: Option<f64>,
-}
-
-/// Point at which a machine is farthest from a piece.
-#[derive(Debug, Serialize)]
-pub struct FarthestRow {
-    pub um: f64,
-    pub tick: u64,
-    /// Main cause of the distance; `None` if the machine is on the path.
-    pub reason: Option<&'static str>,
-    /// Share of the main cause.
-    pub share_um: f64,
-}
-
-impl From<Farthest> for FarthestRow {
-    fn from(farthest: Farthest) -> Self {
-        let off = farthest.mm > ON_PATH_MM;
-        FarthestRow {
-            um: farthest.mm * 1e3,
-            tick: farthest.tick,
-            reason: off.then(|| farthest.reason.name()),
-            share_um: if off { farthest.share_mm * 1e3 } else { 0.0 },
-        }
-    }
 }
 
 pub fn pieces(job: &Job, measured: &Measured) -> Vec<PieceRow> {
@@ -94,60 +63,15 @@ fn row(job: &Job, one: &PieceMeasured) -> Option<PieceRow> {
             (false, Course::Spline(_)) => "spline",
         },
         length_mm: piece.course.length(from, piece.to),
-        steppers: one.steppers.farthest.map(FarthestRow::from),
+        steppers: one.steppers.farthest,
         steppers_s: seconds(&one.steppers.ticks),
-        command_um: servos.map(|servos| servos.command_mm * 1e3),
-        model_um: servos.map(|servos| servos.model_mm * 1e3),
-        motor_um: servos.map(|servos| servos.motor_mm * 1e3),
-        load: servos.map(|servos| servos.load.into()),
-        left_by_correction: servos.map(|servos| servos.left_counts),
+        command_um: servos.map(|servos| servos.command_um),
+        model_um: servos.map(|servos| servos.model_um),
+        motor_um: servos.map(|servos| servos.motor_um),
+        load: servos.map(|servos| servos.load),
+        left_by_correction: servos.map(|servos| servos.left_by_correction),
         servos_s: servos.map(|servos| seconds(&servos.ticks)),
     })
-}
-
-/// End position of a machine.
-#[derive(Debug, Serialize)]
-pub struct EndRow {
-    /// Name of the machine's drive.
-    pub what: &'static str,
-    /// Position in millimetres.
-    pub mm: [f64; 2],
-    /// Position in steps or counts from the machine's zero.
-    pub position: [i64; 2],
-    /// The position nearest to the job's end.
-    pub wanted: [i64; 2],
-    /// "steps" or "counts".
-    pub unit: &'static str,
-}
-
-/// Returns the end positions.
-pub fn ends(ends: &Ends) -> [EndRow; 3] {
-    let [stepper, wanted_steps] = ends.stepper_steps;
-    let [command, wanted_counts] = ends.command_counts;
-    let row = |what, mm, position, wanted, unit| EndRow {
-        what,
-        mm,
-        position,
-        wanted,
-        unit,
-    };
-    [
-        row(STEPPERS, ends.stepper_mm, stepper, wanted_steps, "steps"),
-        row(
-            "commands",
-            ends.command_mm,
-            command,
-            wanted_counts,
-            "counts",
-        ),
-        row(
-            ENCODERS,
-            ends.motor_mm,
-            ends.motor_counts,
-            wanted_counts,
-            "counts",
-        ),
-    ]
 }
 
 /// A step of the pen lift.

@@ -1,13 +1,13 @@
 //! Summary of the run.
 
 use super::Job;
-use super::rows::{self, EndRow, LiftRow, PieceRow};
+use super::rows::{self, LiftRow, PieceRow};
 use super::verdict::{complaints, steppers_cut_off};
 use crate::cli::report::Outcome;
 use crate::cli::times::rounded;
 use motion_rtl::jobs::machine::Settings;
 use motion_rtl::jobs::machine::job::Played;
-use motion_rtl::jobs::machine::measure::Measured;
+use motion_rtl::jobs::machine::measure::{Ends, Measured};
 use serde::Serialize;
 
 /// The summary of a run.
@@ -26,14 +26,9 @@ pub struct Summary {
     pub unattainable_units: usize,
     /// Duration of the run by machine and activity.
     pub times: TimesRow,
-    /// The job's end.
-    pub end_mm: [f64; 2],
-    /// End positions.
-    pub ends: [EndRow; 3],
-    /// Counts that the correction left the motors beside the job's end.
-    pub left_by_correction: [i64; 2],
-    /// Distance of steppers and commands at the end.
-    pub apart_um: f64,
+    /// The job's end and the machines' end positions.
+    #[serde(flatten)]
+    pub ends: Ends,
     /// Every piece of the path.
     pub pieces: Vec<PieceRow>,
     /// Every step of the pen lift.
@@ -66,7 +61,6 @@ impl Summary {
         let seconds = |ticks: u64| ticks as f64 / settings.clock_hz as f64;
         let (times, ends) = (&measured.times, &measured.ends);
         let complaints = complaints(job, played, ends);
-        let [x, y] = [0, 1].map(|axis| ends.stepper_mm[axis] - ends.command_mm[axis]);
         Summary {
             exact: complaints.is_empty(),
             outcome: Outcome {
@@ -91,10 +85,7 @@ impl Summary {
                 settling_s: seconds(times.settling),
                 waiting_s: seconds(times.servos.saturating_sub(times.moving + times.settling)),
             },
-            end_mm: ends.wanted_mm,
-            ends: rows::ends(ends),
-            left_by_correction: ends.left_counts,
-            apart_um: x.hypot(y) * 1e3,
+            ends: *ends,
             pieces: rows::pieces(job, measured),
             lifts: rows::lifts(job, played),
         }

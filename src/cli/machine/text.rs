@@ -1,9 +1,11 @@
 //! The summary for people.
 
-use super::rows::{FarthestRow, LiftRow, PieceRow};
+use super::rows::{LiftRow, PieceRow};
 use super::summary::Summary;
+use crate::cli::columns::Table;
 use crate::cli::report::{Outcome, Report};
-use crate::cli::rows::{fixed, more, or_dash, table, worst};
+use crate::cli::rows::{fixed, fixed_or_dash, more, or_dash, worst};
+use motion_rtl::jobs::machine::measure::{End, Farthest};
 use std::fmt::{self, Write};
 
 /// Below this two places are the same.
@@ -46,48 +48,24 @@ impl Report for Summary {
     }
 }
 
-fn um(farthest: Option<&FarthestRow>) -> [String; 3] {
-    [
-        or_dash(farthest.map(|row| fixed(row.um, 1))),
-        or_dash(farthest.and_then(|row| row.reason)),
-        or_dash(farthest.map(|row| fixed(row.share_um, 1))),
-    ]
-}
-
 impl Summary {
     fn ends(&self, text: &mut String) -> fmt::Result {
-        let heads = [
-            ("end", 8),
-            ("x mm", 9),
-            ("y mm", 9),
-            ("x", 8),
-            ("y", 8),
-            ("", 6),
-        ];
-        let [x, y] = self.end_mm.map(|mm| fixed(mm, 4));
-        let job = [
-            "job".to_owned(),
-            x,
-            y,
-            String::new(),
-            String::new(),
-            String::new(),
-        ];
-        let rows = self.ends.iter().map(|row| {
-            let ([x, y], [steps_x, steps_y]) = (row.mm.map(|mm| fixed(mm, 4)), row.position);
-            let (steps_x, steps_y) = (steps_x.to_string(), steps_y.to_string());
-            [
-                row.what.to_owned(),
-                x,
-                y,
-                steps_x,
-                steps_y,
-                row.unit.to_owned(),
-            ]
-        });
-        table(text, heads, std::iter::once(job).chain(rows))?;
-        let [x, y] = self.left_by_correction;
-        match (self.exact, self.apart_um < SAME_UM) {
+        let ends = &self.ends;
+        let job = ("job", ends.end_mm, None);
+        let machines = ends.ends.iter().map(|end| (end.what, end.mm, Some(end)));
+        let position = |end: Option<&End>, axis: usize| {
+            end.map_or(String::new(), |end| end.position[axis].to_string())
+        };
+        Table::of(std::iter::once(job).chain(machines))
+            .col("end", 8, |(what, ..)| *what)
+            .col("x mm", 9, |(_, mm, _)| fixed(mm[0], 4))
+            .col("y mm", 9, |(_, mm, _)| fixed(mm[1], 4))
+            .col("x", 8, |(.., end)| position(*end, 0))
+            .col("y", 8, |(.., end)| position(*end, 1))
+            .col("", 6, |(.., end)| end.map_or("", |end| end.unit))
+            .write(text)?;
+        let [x, y] = ends.left_by_correction;
+        match (self.exact, ends.apart_um < SAME_UM) {
             (true, _) if [x, y] != [0; 2] => writeln!(
                 text,
                 "steppers and commands end on the step and the count nearest to the job's end; left by \
@@ -98,7 +76,7 @@ impl Summary {
                 text,
                 "both machines end on the step and the count nearest to the job's end, {} um \
                  apart\n",
-                fixed(self.apart_um, 3)
+                fixed(ends.apart_um, 3)
             ),
             (false, _) => writeln!(text),
         }
@@ -114,46 +92,26 @@ impl Summary {
             both.map(|farthest| farthest.um).fold(-1.0, f64::max)
         };
         let (rows, left) = worst(&self.pieces, all, badness);
-        let heads = [
-            ("piece", 0),
-            ("line", 4),
-            ("kind", 5),
-            ("length mm", 0),
-            ("steppers", 0),
-            ("reason", 11),
-            ("share", 0),
-            ("takes s", 0),
-            ("command", 0),
-            ("model", 6),
-            ("motor", 6),
-            ("load", 6),
-            ("reason", 12),
-            ("share", 0),
-            ("takes s", 0),
-        ];
-        let cells = rows.into_iter().map(|row| {
-            let [steppers, steppers_reason, steppers_share] = um(row.steppers.as_ref());
-            let [load, load_reason, load_share] = um(row.load.as_ref());
-            let of = |um: Option<f64>| or_dash(um.map(|um| fixed(um, 1)));
-            [
-                row.piece.to_string(),
-                row.line.to_string(),
-                row.kind.to_owned(),
-                fixed(row.length_mm, 3),
-                steppers,
-                steppers_reason,
-                steppers_share,
-                fixed(row.steppers_s, 3),
-                of(row.command_um),
-                of(row.model_um),
-                of(row.motor_um),
-                load,
-                load_reason,
-                load_share,
-                or_dash(row.servos_s.map(|seconds| fixed(seconds, 3))),
-            ]
-        });
-        table(text, heads, cells)?;
+        let reason = |row: Option<Farthest>| or_dash(row.and_then(|row| Some(row.reason?.name())));
+        let um = |row: Option<Farthest>| fixed_or_dash(row.map(|row| row.um), 1);
+        let share = |row: Option<Farthest>| fixed_or_dash(row.map(|row| row.share_um), 1);
+        Table::of(rows)
+            .col("piece", 0, |row| row.piece)
+            .col("line", 4, |row| row.line)
+            .col("kind", 5, |row| row.kind)
+            .col("length mm", 0, |row| fixed(row.length_mm, 3))
+            .col("steppers", 0, |row| um(row.steppers))
+            .col("reason", 11, |row| reason(row.steppers))
+            .col("share", 0, |row| share(row.steppers))
+            .col("takes s", 0, |row| fixed(row.steppers_s, 3))
+            .col("command", 0, |row| fixed_or_dash(row.command_um, 1))
+            .col("model", 6, |row| fixed_or_dash(row.model_um, 1))
+            .col("motor", 6, |row| fixed_or_dash(row.motor_um, 1))
+            .col("load", 6, |row| um(row.load))
+            .col("reason", 12, |row| reason(row.load))
+            .col("share", 0, |row| share(row.load))
+            .col("takes s", 0, |row| fixed_or_dash(row.servos_s, 3))
+            .write(text)?;
         more(text, left, "of smaller distance")?;
         self.left_by_correction(text)
     }
@@ -181,25 +139,14 @@ impl Summary {
         }
         let badness = |row: &LiftRow| row.error_counts.unsigned_abs() as f64;
         let (rows, left) = worst(&self.lifts, all, badness);
-        let heads = [
-            ("pen lift: piece", 0),
-            ("line", 4),
-            ("pen", 4),
-            ("lead ms", 0),
-            ("past the target, counts", 0),
-            ("learned ms", 0),
-        ];
-        let cells = rows.into_iter().map(|row| {
-            [
-                row.piece.to_string(),
-                row.line.to_string(),
-                row.pen.to_owned(),
-                fixed(row.lead_ms, 1),
-                row.error_counts.to_string(),
-                or_dash(row.learned_ms.map(|ms| fixed(ms, 1))),
-            ]
-        });
-        table(text, heads, cells)?;
+        Table::of(rows)
+            .col("pen lift: piece", 0, |row| row.piece)
+            .col("line", 4, |row| row.line)
+            .col("pen", 4, |row| row.pen)
+            .col("lead ms", 0, |row| fixed(row.lead_ms, 1))
+            .col("past the target, counts", 0, |row| row.error_counts)
+            .col("learned ms", 0, |row| fixed_or_dash(row.learned_ms, 1))
+            .write(text)?;
         more(text, left, "of smaller error")
     }
 }

@@ -1,7 +1,6 @@
 //! Verdict on a run of both machines.
 
 use super::Job;
-use super::rows;
 use motion_rtl::jobs::machine::job::Played;
 use motion_rtl::jobs::machine::measure::Ends;
 use motion_rtl::jobs::machine::program::Move;
@@ -14,13 +13,9 @@ pub fn complaints(job: &Job, played: &Played, ends: &Ends) -> Vec<String> {
         all.push(restless(job, played));
     }
     let cut_off = steppers_cut_off(job, played);
-    for end in rows::ends(ends) {
+    let excused = [cut_off, false, ends.motor_at_rest];
+    for (end, excused) in ends.ends.iter().zip(excused) {
         let (position, wanted) = (end.position, end.wanted);
-        let excused = match end.what {
-            rows::STEPPERS => cut_off,
-            rows::ENCODERS => ends.motor_at_rest,
-            _ => false,
-        };
         if position != wanted && !excused {
             let (what, unit) = (end.what, end.unit);
             all.push(format!("{what} end at {position:?} {unit}, not {wanted:?}"));

@@ -153,6 +153,7 @@ fn compared(
         if let Some(Some(run)) = full_feed? {
             runs.push(Run {
                 full_feed: true,
+                in_waves: false,
                 ..run
             });
         }

@@ -3,12 +3,13 @@
 use super::Job;
 use crate::cli::thinned::Thinned;
 use motion_rtl::circuits::trajectory_controller::path_point::AXES;
-use motion_rtl::jobs::trajectory_controller::closed::{Steady, SteadySearch};
+use motion_rtl::jobs::trajectory_controller::closed::{CircleMeasured, SteadySearch};
 use motion_rtl::jobs::trajectory_controller::job::{Period, Played};
 use motion_rtl::jobs::trajectory_controller::measure::{Deviation, Measured, Measuring, apart};
 use motion_rtl::jobs::trajectory_controller::program::Program;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
 use motion_rtl::path::vector::distance;
+use serde::Serialize;
 use std::array::from_fn;
 
 /// The period whose tick the save file's window begins with.
@@ -35,45 +36,57 @@ impl Runs {
     }
 }
 
-/// The run by one correction.
-#[derive(Debug)]
+/// The run by one correction, with its figures in the summary.
+#[derive(Debug, Serialize)]
 pub struct Run {
     pub correction: Correction,
-    /// True at full feed, beside runs that a contour tolerance slows down.
+    /// True at full feed, beside runs that a contour tolerance limits.
     pub full_feed: bool,
-    /// Planned duration of the path in s.
-    pub planned_s: f64,
+    /// Planned duration of the path.
+    pub planned_seconds: f64,
+    /// True if its waves are written.
+    pub in_waves: bool,
     /// Ticks of the run.
     pub ticks: u64,
-    /// Tick at which the path began; it was written before.
-    pub start: u64,
-    /// Interpolation periods.
+    /// Interpolation periods until models and motors have settled.
     pub periods: usize,
+    /// Errors of models, motors and loads, and measures of the axes.
+    #[serde(flatten)]
+    pub measured: Measured,
+    /// Errors on a circle, if the path has one that is long enough.
+    pub circle: Option<CircleMeasured>,
+    /// Tick at which the path began; it was written before.
+    #[serde(skip)]
+    pub start: u64,
     /// The tick of a period in motion.
+    #[serde(skip)]
     pub in_motion: u64,
     /// Largest distance of a command from the path's exact point, in mm.
+    #[serde(skip)]
     pub command_error_mm: f64,
     /// Distance of the last command from the path's end, in mm.
+    #[serde(skip)]
     pub end_mm: f64,
-    /// End positions of the motors, in counts from the path's start.
-    pub end_counts: Vec<i64>,
-    /// Measurements of the run.
-    pub measured: Measured,
-    /// Steady part on a circle at constant speed.
-    pub circle: Option<Steady>,
     /// Largest contour error of the loads on what is drawn, in mm.
+    #[serde(skip)]
     pub largest_drawn_mm: f64,
     /// Largest contour error of the loads next to each segment, in um; without a period there none.
+    #[serde(skip)]
     pub segments: Vec<Option<f64>>,
     /// The periods, thinned for the picture.
+    #[serde(skip)]
     pub shown: Thinned<Shown, 5>,
     /// True if a period began before the previous one was over.
+    #[serde(skip)]
     pub late: bool,
     /// True if the profile ended in motion.
+    #[serde(skip)]
     pub starved: bool,
     /// True if an encoder was too fast.
+    #[serde(skip)]
     pub lost: bool,
     /// True if models and motors came to rest.
+    #[serde(skip)]
     pub settled: bool,
 }
 
@@ -120,7 +133,7 @@ impl<'j> UnderWay<'j> {
             job,
             program,
             correction,
-            measuring: Measuring::new(program, job.axes()),
+            measuring: Measuring::new(program, &job.machines),
             steady: SteadySearch::new(program),
             last: None,
             in_motion: None,
@@ -171,19 +184,20 @@ impl<'j> UnderWay<'j> {
     pub fn finish(self, played: &Played) -> Option<Run> {
         let (last, _) = self.last?;
         let end_mm = self.off(last.command, self.program.path.length as f64);
+        let circle = self.steady.finish();
         Some(Run {
             correction: self.correction,
             full_feed: false,
-            planned_s: self.program.profile.duration,
+            planned_seconds: self.program.profile.duration,
+            in_waves: self.correction == self.job.settings.correction,
             ticks: played.ticks,
-            start: played.start,
             periods: self.shown.count(),
+            measured: self.measuring.finish(played)?,
+            circle: circle.map(|steady| steady.circle(self.correction)),
+            start: played.start,
             in_motion: self.in_motion.unwrap_or(played.start),
             command_error_mm: self.command_error_mm,
             end_mm,
-            end_counts: played.motor[..played.axes].to_vec(),
-            measured: self.measuring.finish()?,
-            circle: self.steady.finish(),
             largest_drawn_mm: self.largest_drawn_mm,
             segments: self.segments,
             shown: self.shown,

@@ -1,19 +1,18 @@
 //! Summary of the runs.
 
 use super::Job;
-use super::rows::{self, CorrectionRow, SegmentRow};
-use super::runs::Runs;
+use super::rows::{self, SegmentRow};
+use super::runs::{Run, Runs};
 use super::verdict::{NOT_SETTLED, compared, complaints};
 use crate::cli::report::Outcome;
 use motion_rtl::circuits::trajectory_controller::Widths;
-use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use motion_rtl::jobs::trajectory_controller::settings::Settings;
 use motion_rtl::path::pieces::Speeds;
 use serde::Serialize;
 
 /// The summary of a run.
 #[derive(Debug, Serialize)]
-pub struct Summary {
+pub struct Summary<'r> {
     /// Fields that all summaries share.
     #[serde(flatten)]
     pub outcome: Outcome,
@@ -35,7 +34,7 @@ pub struct Summary {
     pub path: PathSummary,
     pub plan: PlanSummary,
     /// Results by correction.
-    pub corrections: Vec<CorrectionRow>,
+    pub corrections: &'r [Run],
     pub segments: Vec<SegmentRow>,
 }
 
@@ -76,9 +75,9 @@ pub struct Joint {
     pub limit_mm_per_s: f64,
 }
 
-impl Summary {
+impl<'r> Summary<'r> {
     /// The summary of a path that was run by each correction.
-    pub fn new(job: &Job, runs: &Runs) -> Self {
+    pub fn new(job: &Job, runs: &'r Runs) -> Self {
         let (settings, program) = (&job.settings, &job.program);
         let complaints = complaints(job, runs);
         let segments = rows::segments(job, runs);
@@ -112,7 +111,7 @@ impl Summary {
                 zero_length: program.path.zero_length,
             },
             plan: plan(job, &segments),
-            corrections: rows::corrections(job, runs),
+            corrections: &runs.runs,
             segments,
         }
     }
@@ -156,13 +155,14 @@ fn warnings(job: &Job, runs: &Runs) -> Vec<String> {
         if compared(run, runs) && !run.settled {
             warnings.push(format!("feedback: {NOT_SETTLED}, with these gains"));
         }
-        for (axis, &periods) in run.measured.saturated.iter().enumerate() {
-            if periods > 0 {
+        for (axis, machine) in run.measured.axes.iter().zip(&job.machines) {
+            if axis.saturated_periods > 0 {
                 warnings.push(format!(
-                    "{}: in {periods} periods {} asks for more than {} Nm",
+                    "{}: in {} periods {} asks for more than {} Nm",
                     run.name(),
-                    AXIS_NAMES[axis],
-                    job.machines[axis].max_torque_nm
+                    axis.saturated_periods,
+                    axis.axis,
+                    machine.max_torque_nm
                 ));
             }
         }

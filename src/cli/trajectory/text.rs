@@ -1,9 +1,11 @@
 //! The summary for people.
 
-use super::rows::{AxisRow, CorrectionRow, SegmentRow};
+use super::rows::SegmentRow;
+use super::runs::Run;
 use super::summary::Summary;
+use crate::cli::columns::Table;
 use crate::cli::report::{Outcome, Report};
-use crate::cli::rows::{fixed, more, or_dash, table, worst};
+use crate::cli::rows::{fixed, fixed_or_dash, more, or_dash, worst};
 use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use motion_rtl::jobs::trajectory_controller::each_axis::EachAxis;
 use motion_rtl::settings::tidy;
@@ -12,7 +14,7 @@ use std::fmt::{self, Write};
 /// Width of the column that says what a row is of.
 const NAME: usize = 18;
 
-impl Report for Summary {
+impl Report for Summary<'_> {
     fn outcome(&mut self) -> &mut Outcome {
         &mut self.outcome
     }
@@ -54,11 +56,6 @@ impl Report for Summary {
     }
 }
 
-/// A name, to the left.
-fn name(name: &str) -> String {
-    format!("{name:<NAME$}")
-}
-
 fn plural(count: usize, what: &str) -> String {
     match count {
         1 => format!("1 {what}"),
@@ -66,7 +63,7 @@ fn plural(count: usize, what: &str) -> String {
     }
 }
 
-impl Summary {
+impl Summary<'_> {
     /// Writes the load torques, which the servo controls do not know.
     fn disturbances(&self, text: &mut String) -> fmt::Result {
         for torque in &self.settings.load_torque {
@@ -87,8 +84,9 @@ impl Summary {
         if (wrong || !self.settings.load_torque.is_empty())
             && let Some(row) = shown
         {
-            let off = |axis: &AxisRow| format!("{} {} um", axis.axis, fixed(axis.off_model_um, 1));
-            let off: Vec<_> = row.axes.iter().map(off).collect();
+            let axes = row.measured.axes.iter();
+            let off = axes.map(|axis| format!("{} {} um", axis.axis, fixed(axis.off_model_um, 1)));
+            let off: Vec<_> = off.collect();
             writeln!(text, "motors off their models by up to {}", off.join(", "))?;
         }
         Ok(())
@@ -140,37 +138,26 @@ impl Summary {
     }
 
     fn errors(&self, text: &mut String) -> fmt::Result {
-        let title = name("contour error um");
-        let heads = [
-            (title.as_str(), 0),
-            ("model", 8),
-            ("rms", 8),
-            ("load", 8),
-            ("rms", 8),
-            ("at mm", 8),
-            ("following mm", 0),
-            ("end um", 6),
-            ("torque Nm", 0),
-            ("", 12),
-        ];
-        let cells = self.corrections.iter().map(|row| {
-            let torques = row.axes.iter().map(|axis: &AxisRow| axis.torque_max_nm);
-            [
-                name(row.name),
-                fixed(row.model.contour_max_um, 3),
-                fixed(row.model.contour_rms_um, 3),
-                fixed(row.load.contour_max_um, 3),
-                fixed(row.load.contour_rms_um, 3),
-                fixed(row.load.at_mm, 3),
-                fixed(row.load.following_max_mm, 4),
-                fixed(row.load.end_um, 2),
-                fixed(torques.fold(0.0, f64::max), 3),
-                if row.in_waves { "in the waves" } else { "" }.to_owned(),
-            ]
-        });
-        table(text, heads, cells)?;
-        text.push('\n');
-        Ok(())
+        let torque = |row: &Run| {
+            let axes = row.measured.axes.iter();
+            axes.map(|axis| axis.torque_max_nm).fold(0.0, f64::max)
+        };
+        Table::of(self.corrections)
+            .left("contour error um", NAME, |row| row.name())
+            .col("model", 8, |row| {
+                fixed(row.measured.model.contour_max_um, 3)
+            })
+            .col("rms", 8, |row| fixed(row.measured.model.contour_rms_um, 3))
+            .col("load", 8, |row| fixed(row.measured.load.contour_max_um, 3))
+            .col("rms", 8, |row| fixed(row.measured.load.contour_rms_um, 3))
+            .col("at mm", 8, |row| fixed(row.measured.load.at_mm, 3))
+            .col("following mm", 0, |row| {
+                fixed(row.measured.load.following_max_mm, 4)
+            })
+            .col("end um", 6, |row| fixed(row.measured.load.end_um, 2))
+            .col("torque Nm", 0, |row| fixed(torque(row), 3))
+            .col("", 12, |row| if row.in_waves { "in the waves" } else { "" })
+            .write_apart(text)
     }
 
     fn circle(&self, text: &mut String) -> fmt::Result {
@@ -194,27 +181,17 @@ impl Summary {
             full.map_or_else(String::new, |speed| format!(", at full feed {speed} mm/s")),
             first.periods
         )?;
-        let title = name("um");
-        let heads = [
-            (title.as_str(), 0),
-            ("model", 8),
-            ("sampled", 8),
-            ("continuous", 0),
-            ("load", 8),
-        ];
-        let circles = self.corrections.iter().filter_map(|row: &CorrectionRow| {
-            let circle = row.circle.as_ref()?;
-            Some([
-                name(row.name),
-                fixed(circle.model_um, 3),
-                fixed(circle.sampled_um, 3),
-                fixed(circle.continuous_um, 3),
-                fixed(circle.load_um, 3),
-            ])
-        });
-        table(text, heads, circles)?;
-        text.push('\n');
-        Ok(())
+        let circles = self.corrections.iter();
+        let circles = circles.filter_map(|row| Some((row.name(), row.circle.as_ref()?)));
+        Table::of(circles)
+            .left("um", NAME, |(name, _)| *name)
+            .col("model", 8, |(_, circle)| fixed(circle.model_um, 3))
+            .col("sampled", 8, |(_, circle)| fixed(circle.sampled_um, 3))
+            .col("continuous", 0, |(_, circle)| {
+                fixed(circle.continuous_um, 3)
+            })
+            .col("load", 8, |(_, circle)| fixed(circle.load_um, 3))
+            .write_apart(text)
     }
 
     fn segments(&self, text: &mut String, all: bool) -> fmt::Result {
@@ -225,37 +202,23 @@ impl Summary {
         };
         let (rows, left) = worst(&self.segments, all, error);
         let own = self.corrections.iter().filter(|row| !row.full_feed);
-        let names: Vec<_> = own.map(|row| row.name).collect();
-        let first = names.first().map(|name| format!("load um: {name}"));
-        let first = first.unwrap_or_default();
-        let mut heads = vec![
-            ("segment", 0),
-            ("line", 4),
-            ("kind", 5),
-            ("length mm", 0),
-            ("radius", 8),
-            ("mm/s", 8),
-            ("wanted", 8),
-            ("entry", 8),
-            (first.as_str(), 0),
-        ];
-        heads.extend(names.iter().skip(1).map(|name| (*name, 8)));
-        let cells = rows.into_iter().map(|row| {
-            let mut cells = vec![
-                row.segment.to_string(),
-                or_dash(row.line),
-                row.kind.to_owned(),
-                fixed(row.length_mm, 3),
-                or_dash(row.radius_mm.map(|mm| fixed(mm, 3))),
-                fixed(row.speed_mm_per_s, 3),
-                fixed(row.speed_wanted_mm_per_s, 3),
-                fixed(row.entry_mm_per_s, 3),
-            ];
-            let errors = row.contour_um.iter();
-            cells.extend(errors.map(|um| or_dash(um.map(|um| fixed(um, 3)))));
-            cells
-        });
-        table(text, heads, cells)?;
+        let mut table = Table::of(rows)
+            .col("segment", 0, |row| row.segment)
+            .col("line", 4, |row| or_dash(row.line))
+            .col("kind", 5, |row| row.kind)
+            .col("length mm", 0, |row| fixed(row.length_mm, 3))
+            .col("radius", 8, |row| fixed_or_dash(row.radius_mm, 3))
+            .col("mm/s", 8, |row| fixed(row.speed_mm_per_s, 3))
+            .col("wanted", 8, |row| fixed(row.speed_wanted_mm_per_s, 3))
+            .col("entry", 8, |row| fixed(row.entry_mm_per_s, 3));
+        for (index, run) in own.enumerate() {
+            let error = |row: &&SegmentRow| fixed_or_dash(row.contour_um[index], 3);
+            table = match index {
+                0 => table.col(&format!("load um: {}", run.name()), 0, error),
+                _ => table.col(run.name(), 8, error),
+            };
+        }
+        table.write(text)?;
         more(text, left, "of smaller contour error")
     }
 }

@@ -61,8 +61,8 @@ fn of_run(job: &Job, run: &Run, compared: bool) -> Vec<String> {
         };
         let axes = job.axes().max(3) as f64;
         let bound = axes.sqrt() * (0.5 + fed / (1.0 + fed)) * count_mm;
-        let model = run.measured.model.final_mm;
-        keep("the models beside the path's end", model, bound);
+        let model = run.measured.model.end_um;
+        keep("the models beside the path's end", model / 1e3, bound);
     }
     all
 }

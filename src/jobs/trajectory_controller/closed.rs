@@ -17,6 +17,7 @@ use super::segments::Segment;
 use super::settings::Correction;
 use crate::circuits::trajectory_controller::{Rounding, Widths};
 use crate::input::COORDINATES;
+use serde::Serialize;
 use std::ops::Range;
 
 /// Number of times of its slowest decay after which a model has forgotten its past.
@@ -155,6 +156,42 @@ pub struct Steady {
     pub load_mm: f64,
     /// Results of the closed forms.
     pub forms: ClosedForms,
+}
+
+/// Mean contour errors of the steady part of a run, by one correction; inwards positive where there
+/// is a sign.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CircleMeasured {
+    /// Radius r.
+    pub radius_mm: f64,
+    /// Speed v.
+    pub speed_mm_per_s: f64,
+    /// Periods of the steady part.
+    pub periods: usize,
+    /// Distance of the models from the circle.
+    pub model_um: f64,
+    /// Distance of the loads from the circle.
+    pub load_um: f64,
+    /// Distance by the closed form of continuous models.
+    pub continuous_um: f64,
+    /// Distance by the closed form of the sampled models.
+    pub sampled_um: f64,
+}
+
+impl Steady {
+    /// Returns the errors beside the closed forms of a correction.
+    #[must_use]
+    pub fn circle(&self, correction: Correction) -> CircleMeasured {
+        CircleMeasured {
+            radius_mm: self.forms.radius_mm,
+            speed_mm_per_s: self.forms.speed_mm_per_s,
+            periods: self.periods,
+            model_um: self.model_mm * 1e3,
+            load_um: self.load_mm * 1e3,
+            continuous_um: self.forms.continuous.of(correction) * 1e3,
+            sampled_um: self.forms.sampled.of(correction) * 1e3,
+        }
+    }
 }
 
 /// Range of lengths in which a circle is run at constant speed, with its observations.

@@ -3,10 +3,12 @@
 use super::job::{Period, Played, Program};
 use super::segments::{Arc, Path, Segment};
 use crate::circuits::trajectory_controller::Widths;
-use crate::circuits::trajectory_controller::path_point::AXES;
+use crate::circuits::trajectory_controller::path_point::{AXES, AXIS_NAMES};
 use crate::input::{COORDINATES, Point};
 use crate::path::cubic::{rise, rises};
 use crate::path::vector::{add, dot, scale, sub};
+use crate::plant::{TwoMassAxis, TwoMassParameters};
+use serde::Serialize;
 use std::array::from_fn;
 use std::f64::consts::TAU;
 
@@ -32,63 +34,72 @@ pub struct Deviation {
     pub following_mm: f64,
 }
 
-/// Greatest value of an error.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Peak {
-    /// Value in mm.
-    pub mm: f64,
-    pub period: usize,
-    /// Tick of the period.
-    pub tick: u64,
-    /// Length along the path of the nearest point.
-    pub length_mm: f64,
-}
-
 /// Errors of models, motors or loads.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Errors {
     /// Deviations, period by period; empty for [`Measuring`].
+    #[serde(skip)]
     pub deviations: Vec<Deviation>,
-    /// Greatest contour error.
-    pub contour: Peak,
+    /// Greatest contour error: the distance from the path.
+    pub contour_max_um: f64,
     /// Root mean square of the contour error.
-    pub contour_rms_mm: f64,
-    /// Greatest following error.
-    pub following: Peak,
+    pub contour_rms_um: f64,
+    /// Length along the path at the greatest contour error.
+    pub at_mm: f64,
+    /// Tick of the greatest contour error.
+    pub at_tick: u64,
+    /// Period of the greatest contour error.
+    #[serde(skip)]
+    pub at_period: usize,
+    /// Greatest following error: the distance from the command of the same period.
+    pub following_max_mm: f64,
     /// Root mean square of the following error.
+    #[serde(skip)]
     pub following_rms_mm: f64,
     /// Distance from the path's end in the last period.
-    pub final_mm: f64,
+    pub end_um: f64,
+}
+
+/// Measures of an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct AxisMeasured {
+    /// Name of the axis.
+    pub axis: &'static str,
+    /// End position of the motor, in counts from the path's start.
+    pub end_position: i64,
+    /// Greatest torque.
+    pub torque_max_nm: f64,
+    /// Number of periods with limited torque.
+    pub saturated_periods: usize,
+    /// Greatest distance of the motor from its model.
+    pub off_model_um: f64,
 }
 
 /// Measures of a run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Measured {
     /// Errors of the servos' models, which the motors follow.
     pub model: Errors,
     /// Errors of the motors, by their encoders.
     pub motor: Errors,
+    /// Errors of the loads.
     pub load: Errors,
-    /// Greatest torque of each axis, in words.
-    pub torque: Vec<i64>,
-    /// Number of periods with limited torque, for each axis.
-    pub saturated: Vec<usize>,
-    /// Greatest distance of each motor from its model, in mm.
-    pub off_model_mm: Vec<f64>,
+    /// Measures of each axis.
+    pub axes: Vec<AxisMeasured>,
 }
 
 impl Measured {
-    /// Measures a run; `None` for a run without periods.
+    /// Measures a run of `machines`; `None` for a run without periods.
     #[must_use]
-    pub fn of(program: &Program, played: &Played) -> Option<Self> {
-        let mut measuring = Measuring::new(program, played.axes);
+    pub fn of(program: &Program, machines: &[TwoMassParameters], played: &Played) -> Option<Self> {
+        let mut measuring = Measuring::new(program, machines);
         let mut deviations = [const { Vec::new() }; 3];
         for period in &played.periods {
             for (all, one) in deviations.iter_mut().zip(measuring.take(period)) {
                 all.push(one);
             }
         }
-        let mut measured = measuring.finish()?;
+        let mut measured = measuring.finish(played)?;
         let errors = [&mut measured.model, &mut measured.motor, &mut measured.load];
         for (errors, deviations) in errors.into_iter().zip(deviations) {
             errors.deviations = deviations;
@@ -101,36 +112,45 @@ impl Measured {
 #[derive(Debug)]
 pub struct Measuring<'p> {
     program: &'p Program,
+    machines: &'p [TwoMassParameters],
     /// Number of periods so far.
     periods: usize,
-    /// Errors of models, motors and loads.
+    /// Errors of models, motors and loads; distances in mm.
     errors: [Errors; 3],
-    torque: Vec<i64>,
-    saturated: Vec<usize>,
-    off_model: Vec<f64>,
+    axes: Vec<Axis>,
+}
+
+/// Measures of an axis while a run goes on.
+#[derive(Debug, Clone, Copy, Default)]
+struct Axis {
+    /// Greatest torque in words.
+    torque: i64,
+    /// Number of periods with limited torque.
+    saturated: usize,
+    /// Greatest distance of the motor from its model, in guard units.
+    off_model: f64,
 }
 
 impl<'p> Measuring<'p> {
-    /// Creates a measurement of a run of `program` on `axes` axes.
+    /// Creates a measurement of a run of `program` on `machines`, one for each axis.
     #[must_use]
-    pub fn new(program: &'p Program, axes: usize) -> Self {
+    pub fn new(program: &'p Program, machines: &'p [TwoMassParameters]) -> Self {
         Measuring {
             program,
+            machines,
             periods: 0,
             errors: from_fn(|_| Errors::default()),
-            torque: vec![0; axes],
-            saturated: vec![0; axes],
-            off_model: vec![0.0; axes],
+            axes: vec![Axis::default(); machines.len()],
         }
     }
 
     /// Adds the next period; returns the deviations of models, motors and loads.
     pub fn take(&mut self, period: &Period) -> [Deviation; 3] {
-        for axis in 0..self.torque.len() {
-            self.torque[axis] = self.torque[axis].max(period.torque[axis].abs());
-            self.saturated[axis] += usize::from(period.saturated[axis]);
+        for (axis, own) in self.axes.iter_mut().enumerate() {
+            own.torque = own.torque.max(period.torque[axis].abs());
+            own.saturated += usize::from(period.saturated[axis]);
             let off = period.motor[axis] as f64 * COUNT - period.model[axis] as f64;
-            self.off_model[axis] = self.off_model[axis].max(off.abs());
+            own.off_model = own.off_model.max(off.abs());
         }
         let positions = [
             period.model.map(|units| units as f64),
@@ -148,46 +168,51 @@ impl<'p> Measuring<'p> {
 
     /// Returns the measures, without the single deviations; `None` without periods.
     #[must_use]
-    pub fn finish(self) -> Option<Measured> {
+    pub fn finish(self, played: &Played) -> Option<Measured> {
         let periods = Some(self.periods).filter(|periods| *periods > 0)? as f64;
-        let rms = |errors: Errors| Errors {
-            contour_rms_mm: (errors.contour_rms_mm / periods).sqrt(),
-            following_rms_mm: (errors.following_rms_mm / periods).sqrt(),
-            ..errors
-        };
-        let [model, motor, load] = self.errors.map(rms);
-        let mm = |off: f64| off / self.program.motion.units_per_mm;
+        let [model, motor, load] = self.errors.map(|errors| errors.finish(periods));
+        let axes = self.axes.iter().zip(self.machines).enumerate();
+        let axes = axes.map(|(axis, (own, machine))| AxisMeasured {
+            axis: AXIS_NAMES[axis],
+            end_position: played.motor[axis],
+            torque_max_nm: own.torque as f64 / TwoMassAxis::FULL_SCALE as f64
+                * machine.max_torque_nm,
+            saturated_periods: own.saturated,
+            off_model_um: own.off_model / self.program.motion.units_per_mm * 1e3,
+        });
         Some(Measured {
             model,
             motor,
             load,
-            torque: self.torque,
-            saturated: self.saturated,
-            off_model_mm: self.off_model.into_iter().map(mm).collect(),
+            axes: axes.collect(),
         })
     }
 }
 
 impl Errors {
-    /// Adds a period. Until the measurement is finished, the means are sums of squares.
+    /// Adds a period. Until the errors are finished, distances are in mm and means are sums of
+    /// squares.
     fn add(&mut self, deviation: &Deviation, end_mm: f64, period: usize, tick: u64) {
         let (contour, following) = (deviation.contour_mm, deviation.following_mm);
-        self.contour_rms_mm += contour.powi(2);
+        self.contour_rms_um += contour.powi(2);
         self.following_rms_mm += following.powi(2);
-        for (peak, mm) in [
-            (&mut self.contour, contour),
-            (&mut self.following, following),
-        ] {
-            if mm > peak.mm {
-                *peak = Peak {
-                    mm,
-                    period,
-                    tick,
-                    length_mm: deviation.length_mm,
-                };
-            }
+        if contour > self.contour_max_um {
+            self.contour_max_um = contour;
+            (self.at_period, self.at_tick) = (period, tick);
+            self.at_mm = deviation.length_mm;
         }
-        self.final_mm = end_mm;
+        self.following_max_mm = self.following_max_mm.max(following);
+        self.end_um = end_mm;
+    }
+
+    fn finish(self, periods: f64) -> Self {
+        Errors {
+            contour_max_um: self.contour_max_um * 1e3,
+            contour_rms_um: (self.contour_rms_um / periods).sqrt() * 1e3,
+            following_rms_mm: (self.following_rms_mm / periods).sqrt(),
+            end_um: self.end_um * 1e3,
+            ..self
+        }
     }
 }
 

@@ -57,6 +57,38 @@ impl Profile {
         }
     }
 
+    /// Returns the speed where a length is reached.
+    #[must_use]
+    pub fn speed_at(&self, length: f64) -> f64 {
+        self.at(self.time(length))[1]
+    }
+
+    /// Returns the time at which a length is reached.
+    fn time(&self, length: f64) -> f64 {
+        let index = self.pieces.partition_point(|piece| piece.q <= length);
+        let from = self.pieces[..index].last().map_or(0.0, |piece| piece.t);
+        let to = self.pieces.get(index).map_or(self.duration, |next| next.t);
+        // The length never falls, so bisection finds it.
+        let (mut early, mut late) = (from, to);
+        for _ in 0..60 {
+            let middle = f64::midpoint(early, late);
+            match self.at(middle)[0] < length {
+                true => early = middle,
+                false => late = middle,
+            }
+        }
+        early
+    }
+
+    /// Returns the highest speed between two lengths: at one of them, or where a piece begins.
+    #[must_use]
+    pub fn highest_speed(&self, from: f64, to: f64) -> f64 {
+        let first = self.pieces.partition_point(|piece| piece.q <= from);
+        let inside = self.pieces[first..].iter().take_while(|piece| piece.q < to);
+        let ends = self.speed_at(from).max(self.speed_at(to));
+        inside.map(|piece| piece.v).fold(ends, f64::max)
+    }
+
     /// Appends `time` of a piece, unless that is below the resolution of time.
     pub(super) fn push(&mut self, time: f64, q: f64, [v, a, jerk]: [f64; 3]) {
         let end = self.duration + time;

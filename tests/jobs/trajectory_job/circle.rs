@@ -77,6 +77,17 @@ fn in_periods_of_a_millisecond() {
         };
         near(forms.sampled.of(correction), signed, 1e-6);
         near(model, size, 1e-3);
+        let circle = steady.circle(correction);
+        assert_eq!(
+            (circle.radius_mm, circle.periods),
+            (forms.radius_mm, steady.periods)
+        );
+        assert_eq!(circle.sampled_um, forms.sampled.of(correction) * 1e3);
+        assert_eq!(circle.continuous_um, forms.continuous.of(correction) * 1e3);
+        assert_eq!(
+            (circle.model_um, circle.load_um),
+            (model * 1e3, steady.load_mm * 1e3)
+        );
         // The shaft gives way to the load: a·J/k, outwards.
         let axis = machine[0];
         let turn = 1000.0 * TAU / axis.mm_per_rev;
@@ -88,8 +99,8 @@ fn in_periods_of_a_millisecond() {
         // All the way the motors are within 10 counts of their models.
         let off = run.off_model();
         assert!(off[0] < 12.0 && off[1] < 28.0, "{off:?}");
-        assert_eq!(measured.saturated, [0, 0]);
-        let last = [&measured.model, &measured.motor].map(|errors| errors.final_mm);
+        assert!(measured.axes.iter().all(|axis| axis.saturated_periods == 0));
+        let last = [&measured.model, &measured.motor].map(|errors| errors.end_um / 1e3);
         match correction {
             // On the widened circle it ends beside the path, by c·v²/r.
             Correction::Steady => last.map(|mm| close(mm, 0.0901, 0.02)),

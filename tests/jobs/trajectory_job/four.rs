@@ -44,7 +44,11 @@ fn played(pieces: &[Piece], fourth: &FourthAxis, correction: Correction) -> Run 
     let played = play(&circuit, &program, plants, &mut ()).unwrap();
     assert!(!played.late && !played.starved && !played.lost && played.settled);
     assert_eq!(played.axes, 4);
-    Run { program, played }
+    Run {
+        machines: machine.to_vec(),
+        program,
+        played,
+    }
 }
 
 /// An arc, a line, W alone, a line back; W from 2 to 6, on to 3, to 8 alone, and there.
@@ -167,13 +171,18 @@ fn w_is_on_the_path_and_is_corrected() {
         let end = [0, 0, 1000, 6000].map(|counts| f64::from(counts) * COUNT);
         let last = run.played.periods.last().unwrap();
         let off = apart(last.model.map(|units| units as f64), end) / MM;
-        assert!((measured.model.final_mm - off).abs() < 1e-6, "{off}");
+        assert!((measured.model.end_um - 1e3 * off).abs() < 1e-3, "{off}");
         for (axis, end) in [0i64, 0, 1000, 6000].into_iter().enumerate() {
             assert!((last.motor[axis] - end).abs() <= 2, "{last:?}");
             assert!((last.load[axis] - end as f64).abs() <= 2.0, "{last:?}");
         }
-        let torque = measured.torque;
-        assert!(torque.len() == 4 && torque[3] > 1000, "{torque:?}");
+        let axes = measured.axes;
+        let names: Vec<_> = axes.iter().map(|axis| axis.axis).collect();
+        assert_eq!(names, ["x", "y", "z", "w"]);
+        assert!(
+            axes[3].torque_max_nm > 0.03 * run.machines[3].max_torque_nm,
+            "{axes:?}"
+        );
         let count = run.played.periods.len() as f64;
         let own = squares.map(|sum| (sum / count).sqrt() / MM * 1e3);
         println!("{correction:?}: {own:.2?} um rms of models and loads");

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 impl Run {
     pub fn measured(&self) -> Measured {
-        Measured::of(&self.program, &self.played).unwrap()
+        Measured::of(&self.program, &self.machines, &self.played).unwrap()
     }
 }
 
@@ -103,6 +103,12 @@ fn beside(program: &Program, off_mm: [f64; 3], behind_mm: f64) -> Played {
     }
 }
 
+/// Greatest torques of X and Y in words.
+fn torques(measured: &Measured) -> [f64; 2] {
+    let full = TwoMassParameters::default().max_torque_nm / TwoMassAxis::FULL_SCALE as f64;
+    [0, 1].map(|axis: usize| (measured.axes[axis].torque_max_nm / full).round())
+}
+
 #[test]
 fn what_is_beside_the_path_is_measured_so() {
     let machine = [TwoMassParameters::default(); 2];
@@ -117,40 +123,43 @@ fn what_is_beside_the_path_is_measured_so() {
     for side in [1.0, -1.0] {
         let offs = [0.02, 0.1, 0.3].map(|mm| side * mm);
         let played = beside(&program, offs, 1.5);
-        let measured = Measured::of(&program, &played).unwrap();
+        let measured = Measured::of(&program, &machine, &played).unwrap();
         let all = [&measured.model, &measured.motor, &measured.load];
         for ((errors, off_mm), near) in all.into_iter().zip(offs).zip([1e-4, 2e-3, 1e-4]) {
             let off_mm = off_mm.abs();
             assert!(
-                (errors.contour_rms_mm - off_mm).abs() < near,
+                (errors.contour_rms_um / 1e3 - off_mm).abs() < near,
                 "{}",
-                errors.contour_rms_mm
+                errors.contour_rms_um
             );
-            assert!((errors.contour.mm - off_mm).abs() < near);
+            assert!((errors.contour_max_um / 1e3 - off_mm).abs() < near);
             // Farther by the way of the lag, on the arc by its chord.
             let far = off_mm.hypot(1.5);
             assert!(
-                (errors.following.mm - far).abs() < 0.15,
+                (errors.following_max_mm - far).abs() < 0.15,
                 "{}",
-                errors.following.mm
+                errors.following_max_mm
             );
-            assert!(errors.following_rms_mm < errors.following.mm);
-            let (last, peak) = (errors.deviations.last().unwrap(), errors.contour);
+            assert!(errors.following_rms_mm < errors.following_max_mm);
+            let last = errors.deviations.last().unwrap();
             let end = program.path.length as f64 / MM;
             assert!(
                 (last.length_mm - end + 1.5).abs() < 0.01,
                 "{}",
                 last.length_mm
             );
-            assert!((errors.final_mm - last.following_mm).abs() < 1e-9);
-            assert_eq!(peak.tick, 1000 + peak.period as u64);
-            assert_eq!(errors.deviations[peak.period].contour_mm, peak.mm);
+            assert!((errors.end_um / 1e3 - last.following_mm).abs() < 1e-9);
+            assert_eq!(errors.at_tick, 1000 + errors.at_period as u64);
+            let peak = errors.deviations[errors.at_period];
+            assert_eq!(peak.contour_mm * 1e3, errors.contour_max_um);
+            assert_eq!(peak.length_mm, errors.at_mm);
             for pair in errors.deviations.windows(2) {
                 assert!(pair[0].length_mm <= pair[1].length_mm + 1e-3);
             }
         }
-        assert_eq!(measured.torque, [600, 7]);
-        assert_eq!(measured.saturated, [301, 0]);
+        assert_eq!(torques(&measured), [600.0, 7.0]);
+        let saturated = [0, 1].map(|axis: usize| measured.axes[axis].saturated_periods);
+        assert_eq!(saturated, [301, 0]);
     }
 }
 
@@ -168,9 +177,10 @@ fn torque_and_distance_from_the_model_have_two_signs() {
                 let own = played.periods[period].model[axis] / COUNT as i64;
                 played.periods[period].motor[axis] = own + sign * (700 + 100 * axis as i64);
             }
-            let measured = Measured::of(&program, &played).unwrap();
-            assert_eq!(measured.torque, [5000, 6000]);
-            for (off, wanted) in measured.off_model_mm.iter().zip([0.7, 0.8]) {
+            let measured = Measured::of(&program, &machine, &played).unwrap();
+            assert_eq!(torques(&measured), [5000.0, 6000.0]);
+            for (axis, wanted) in measured.axes.iter().zip([0.7, 0.8]) {
+                let off = axis.off_model_um / 1e3;
                 assert!((off - wanted).abs() < 0.001, "{sign} in {period}: {off}");
             }
         }
@@ -181,7 +191,7 @@ fn torque_and_distance_from_the_model_have_two_signs() {
 fn a_run_without_periods_has_no_measures() {
     let machine = [TwoMassParameters::default(); 2];
     let program = Program::of([0.0; 3], &pieces(), &settings(), &machine, &Widths::FULL).unwrap();
-    assert_eq!(Measured::of(&program, &Played::default()), None);
+    assert_eq!(Measured::of(&program, &machine, &Played::default()), None);
 }
 
 /// There and back, what is there belongs to the way that is under way.

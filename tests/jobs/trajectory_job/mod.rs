@@ -57,8 +57,9 @@ fn arc(radius: f64, angle: f64, speed: f64) -> Piece {
     }
 }
 
-/// A program and its run.
+/// A program and its run on machines.
 struct Run {
+    machines: Vec<TwoMassParameters>,
     program: Program,
     played: Played,
 }
@@ -81,7 +82,11 @@ fn run(
     let circuit = controller(machine.len(), correction, settings.rounding);
     let played = play(&circuit, &program, plants(machine, tick_s), &mut ()).unwrap();
     assert!(!played.late && !played.starved && !played.lost);
-    Run { program, played }
+    Run {
+        machines: machine.to_vec(),
+        program,
+        played,
+    }
 }
 
 const ALL: [Correction; 3] = [Correction::None, Correction::Vector, Correction::Steady];

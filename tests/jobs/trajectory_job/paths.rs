@@ -26,7 +26,9 @@ const ROUNDING: f64 = 160.0;
 
 /// The circuit, period by period, against the profile and equations (1) to (8).
 fn check(run: &Run, correction: Correction) {
-    let Run { program, played } = run;
+    let Run {
+        program, played, ..
+    } = run;
     let whole = lengths(&program.records, &Widths::FULL);
     let gains = [program.tangential.k1, program.tangential.k2].map(|word| word as f64 / 32_768.0);
     let mut tangential = Model::default();
@@ -109,9 +111,13 @@ fn a_corner() {
                 (true, Correction::Vector) => 0.1738,
                 (true, _) => 0.2015,
             };
-            let seen = measured.model.contour;
-            assert!((seen.mm - cut).abs() < 1e-4, "{}", seen.mm);
-            assert!((seen.length_mm - 15.0).abs() < 0.3, "{}", seen.length_mm);
+            let seen = measured.model;
+            assert!(
+                (seen.contour_max_um - 1e3 * cut).abs() < 0.1,
+                "{}",
+                seen.contour_max_um
+            );
+            assert!((seen.at_mm - 15.0).abs() < 0.3, "{}", seen.at_mm);
         }
     }
 }
@@ -182,7 +188,7 @@ fn three_axes_from_a_start_that_is_not_zero() {
         check(&run, correction);
         let measured = run.measured();
         for errors in [&measured.model, &measured.motor, &measured.load] {
-            assert!(errors.final_mm < 0.005, "{}", errors.final_mm);
+            assert!(errors.end_um < 5.0, "{}", errors.end_um);
             let off = errors.deviations[0].actual;
             assert!((0..3).all(|k| (off[k] - start[k]).abs() < 1e-9));
         }

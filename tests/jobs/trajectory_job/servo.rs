@@ -23,9 +23,11 @@ fn a_motor_that_is_too_weak_is_late_and_comes_back() {
     for (torque, beyond) in [(10.0, 30.0), (3.0, 750.0), (2.0, 3800.0)] {
         let run = line_with(torque);
         let measured = run.measured();
-        assert_eq!(measured.saturated[0] > 0, torque < 3.8);
-        assert_eq!(measured.torque[0] == 32_767, torque < 3.8);
-        assert_eq!(measured.saturated[1], 0);
+        let [x, y] = [measured.axes[0], measured.axes[1]];
+        assert_eq!(x.saturated_periods > 0, torque < 3.8);
+        assert_eq!(x.torque_max_nm == torque, torque < 3.8);
+        assert_eq!(y.saturated_periods, 0);
+        assert_eq!([x.end_position, y.end_position], [run.played.motor[0], 0]);
         let over = run
             .played
             .periods
@@ -34,7 +36,7 @@ fn a_motor_that_is_too_weak_is_late_and_comes_back() {
         let over = over.fold(0.0, f64::max);
         assert!(over < beyond, "{torque}: {over}");
         assert!(run.played.settled, "{torque}");
-        assert!(measured.load.final_mm < 0.004, "{}", measured.load.final_mm);
+        assert!(measured.load.end_um < 4.0, "{}", measured.load.end_um);
         for period in &run.played.periods {
             assert_eq!(period.motor[1], 0);
             let limited = period.torque[0].abs() == 32_767;
@@ -67,9 +69,9 @@ fn friction_is_what_the_integral_is_for() {
     );
     let measured = run.measured();
     assert!(run.played.settled);
-    let (peak, last) = (measured.motor.contour.mm, measured.motor.final_mm);
+    let (peak, last) = (measured.motor.contour_max_um, measured.motor.end_um);
     println!("{peak} {last} {:?}", run.off_model());
-    assert!(last < 0.004, "{last}");
+    assert!(last < 4.0, "{last}");
 }
 
 /// Ticks from a period's beginning to its torques.

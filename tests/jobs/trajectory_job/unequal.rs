@@ -62,7 +62,7 @@ fn a_line_is_left_by_what_the_lags_differ_in() {
         assert!(load.abs() < 5e-3, "{n}: {load}");
     }
     // While the speed changes, the vector does not have it all.
-    let [plain, vector] = [&plain, &vector].map(|run| run.measured().model.contour.mm);
+    let [plain, vector] = [&plain, &vector].map(|run| run.measured().model.contour_max_um / 1e3);
     println!("line: {plain} {vector}");
     assert!((plain + exact).abs() < 1e-3, "{plain}");
     assert!(vector > 0.01 && vector < 0.5 * plain, "{vector}");

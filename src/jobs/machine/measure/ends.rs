@@ -5,31 +5,40 @@ use crate::input::Drawing;
 use crate::jobs::machine::job::{Frame, Played};
 use crate::jobs::machine::program::Program;
 use crate::jobs::machine::settings::{Correction, Settings};
+use serde::Serialize;
+
+/// End position of a machine.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct End {
+    /// Name of the machine's drive: steppers, commands or encoders.
+    pub what: &'static str,
+    /// Position in millimetres.
+    pub mm: [f64; 2],
+    /// Position in steps or counts, from the machine's zero.
+    pub position: [i64; 2],
+    /// Position nearest to the job's end.
+    pub wanted: [i64; 2],
+    /// "steps" or "counts".
+    pub unit: &'static str,
+}
 
 /// End positions of both machines.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Ends {
-    /// End of the job in mm.
-    pub wanted_mm: [f64; 2],
-    /// Position of the steppers in mm.
-    pub stepper_mm: [f64; 2],
-    /// Position commands of the servos in mm.
-    pub command_mm: [f64; 2],
-    /// Position of their motors in mm.
-    pub motor_mm: [f64; 2],
-    /// Position of the steppers in steps, from the machine's zero; and the step nearest to the
-    /// end.
-    pub stepper_steps: [[i64; 2]; 2],
-    /// Commands in counts; and the count nearest to the end.
-    pub command_counts: [[i64; 2]; 2],
-    /// Position of the motors in counts.
-    pub motor_counts: [i64; 2],
+    /// End of the job.
+    pub end_mm: [f64; 2],
+    /// Ends of steppers, of the servos' position commands, and of their motors by the encoders.
+    pub ends: [End; 3],
     /// Distance of the corrected command's end from the job's end, in counts.
-    pub left_counts: [i64; 2],
+    pub left_by_correction: [i64; 2],
+    /// Distance of steppers and commands.
+    pub apart_um: f64,
     /// True if the motors are at the end of the corrected command.
+    #[serde(skip)]
     pub motor_at_rest: bool,
     /// True if everything is on the step or count nearest to the job's end, apart from the
     /// deviation of the motors that the correction leaves.
+    #[serde(skip)]
     pub exact: bool,
 }
 
@@ -55,20 +64,36 @@ impl Ends {
         let wanted_steps = axes.map(|axis| steps(end[axis], axis));
         let wanted_counts = axes.map(|axis| counts(end[axis]));
         let mm = |at: [i64; 2]| at.map(|counts| counts as f64 / settings.counts_per_mm);
-        let left_counts = match (last, program.moves.last()) {
+        let left_by_correction = match (last, program.moves.last()) {
             (Some(frame), Some(step)) => left_counts(settings, frame, step.to),
             _ => [0; 2],
         };
-        let motor_at_rest = at_rest(settings, wanted_counts, left_counts, motor);
+        let motor_at_rest = at_rest(settings, wanted_counts, left_by_correction, motor);
+        let stepper_mm = axes.map(|axis| stepper[axis] as f64 / settings.steps_per_mm[axis]);
+        let servo = |what, position| End {
+            what,
+            mm: mm(position),
+            position,
+            wanted: wanted_counts,
+            unit: "counts",
+        };
+        let steppers = End {
+            what: "steppers",
+            mm: stepper_mm,
+            position: stepper,
+            wanted: wanted_steps,
+            unit: "steps",
+        };
+        let [x, y] = axes.map(|axis| stepper_mm[axis] - mm(command)[axis]);
         Ends {
-            wanted_mm: [end[0], end[1]],
-            stepper_mm: axes.map(|axis| stepper[axis] as f64 / settings.steps_per_mm[axis]),
-            command_mm: mm(command),
-            motor_mm: mm(motor),
-            stepper_steps: [stepper, wanted_steps],
-            command_counts: [command, wanted_counts],
-            motor_counts: motor,
-            left_counts,
+            end_mm: [end[0], end[1]],
+            ends: [
+                steppers,
+                servo("commands", command),
+                servo("encoders", motor),
+            ],
+            left_by_correction,
+            apart_um: x.hypot(y) * 1e3,
             motor_at_rest,
             exact: stepper == wanted_steps && command == wanted_counts && motor_at_rest,
         }

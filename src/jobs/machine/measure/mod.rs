@@ -6,7 +6,7 @@ mod measuring;
 mod servos;
 mod steppers;
 
-pub use ends::Ends;
+pub use ends::{End, Ends};
 pub use measuring::{Measuring, Shown};
 
 use super::job::{Event, Played};
@@ -16,18 +16,25 @@ use crate::input::{Drawing, Point};
 use crate::path::pieces::Piece;
 use crate::path::vector::{distance, dot, sub, unit};
 use crate::plan::{Plan, PlanError};
+use serde::Serialize;
 use std::ops::RangeInclusive;
 
+/// A point as near is on the path: floating point puts it there.
+const ON_PATH_MM: f64 = 1e-9;
+
 /// Reason for a deviation from the path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Reason {
     /// Steppers have whole steps only.
+    #[serde(rename = "whole steps")]
     WholeSteps,
     /// In a unit time steppers move straight, also if the path curves.
     Chord,
     /// A count of steps in a unit time for which there is no half-period, compensated in the next.
     Table,
     /// Commands of the servos are whole counts.
+    #[serde(rename = "whole counts")]
     WholeCounts,
     /// Blends cut the ends of an arc.
     Blend,
@@ -57,17 +64,17 @@ impl Reason {
     }
 }
 
-/// Greatest deviation of a machine from a piece of the path.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Point at which a machine is farthest from a piece of the path.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Farthest {
-    /// Distance in mm.
-    pub mm: f64,
+    /// Distance from the piece.
+    pub um: f64,
     /// Tick of the deviation.
     pub tick: u64,
-    /// Reason for the largest part of it.
-    pub reason: Reason,
-    /// Part of it with that reason, in mm: more than all if others work against it.
-    pub share_mm: f64,
+    /// Reason for the largest part of it; `None` if the machine is on the path.
+    pub reason: Option<Reason>,
+    /// Part of it with that reason: more than all if others work against it.
+    pub share_um: f64,
 }
 
 /// Measures of the steppers on a piece of the path.
@@ -84,16 +91,16 @@ pub struct Steppers {
 pub struct Servos {
     /// Ticks from its beginning until both motors were in position.
     pub ticks: RangeInclusive<u64>,
-    /// Greatest distance of the commands from it, in mm.
-    pub command_mm: f64,
-    /// Greatest distance of the models from it, in mm.
-    pub model_mm: f64,
-    /// Greatest distance of the motors from it by their encoders, in mm.
-    pub motor_mm: f64,
+    /// Greatest distance of the commands from it.
+    pub command_um: f64,
+    /// Greatest distance of the models from it.
+    pub model_um: f64,
+    /// Greatest distance of the motors from it by their encoders.
+    pub motor_um: f64,
     /// Greatest deviation of the loads.
     pub load: Farthest,
     /// Distance of the corrected command's end from the piece's end, in counts.
-    pub left_counts: [i64; 2],
+    pub left_by_correction: [i64; 2],
 }
 
 /// Measures of a piece of the path for both machines.
@@ -212,22 +219,16 @@ impl Path<'_> {
 
 /// Returns the greatest share in the direction of the total deviation.
 fn farthest<const N: usize>(tick: u64, off: Point, shares: [(Reason, Point); N]) -> Farthest {
-    let direction = unit(off);
-    let mut found = Farthest {
-        mm: distance(off, [0.0; 3]),
+    let (mm, direction) = (distance(off, [0.0; 3]), unit(off));
+    let shares = shares.map(|(reason, share)| (reason, dot(share, direction)));
+    // Of equal shares the first.
+    let largest = shares.into_iter().rev();
+    let largest = largest.max_by(|(_, a), (_, b)| a.total_cmp(b));
+    let largest = largest.filter(|_| mm > ON_PATH_MM);
+    Farthest {
+        um: mm * 1e3,
         tick,
-        reason: shares[0].0,
-        share_mm: f64::NEG_INFINITY,
-    };
-    for (reason, share) in shares {
-        let share = dot(share, direction);
-        if share > found.share_mm {
-            (found.reason, found.share_mm) = (reason, share);
-        }
+        reason: largest.map(|(reason, _)| reason),
+        share_um: largest.map_or(0.0, |(_, share_mm)| share_mm * 1e3),
     }
-    if !found.share_mm.is_finite() {
-        // No deviation and no direction.
-        found.share_mm = 0.0;
-    }
-    found
 }

@@ -205,18 +205,18 @@ impl OnPiece {
         &self,
         path: &Path<'_>,
         ticks: RangeInclusive<u64>,
-        left_counts: [i64; 2],
+        left_by_correction: [i64; 2],
     ) -> Option<Servos> {
         let (_, worst, _) = self.worst.as_ref()?;
         let at_end = || self.servo.farthest(path, self.piece, worst, &self.frames);
-        let [command_mm, model_mm, motor_mm] = self.largest;
+        let [command_um, model_um, motor_um] = self.largest.map(|mm| mm * 1e3);
         Some(Servos {
             ticks,
-            command_mm,
-            model_mm,
-            motor_mm,
+            command_um,
+            model_um,
+            motor_um,
             load: self.found.or_else(at_end)?,
-            left_counts,
+            left_by_correction,
         })
     }
 }

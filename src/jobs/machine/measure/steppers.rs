@@ -162,7 +162,7 @@ impl Steppers {
 
     /// Keeps a deviation if it is greater than all before.
     fn farther(&mut self, found: Farthest) {
-        if self.farthest.is_none_or(|other| found.mm > other.mm) {
+        if self.farthest.is_none_or(|other| found.um > other.um) {
             self.farthest = Some(found);
         }
     }
