@@ -179,7 +179,8 @@ fn speeds_and_distances_are_measured() {
         (distance.measured / 1e3 - nearest).abs() < 0.001 && nearest < 0.02,
         "{corner:?}"
     );
-    assert!((distance.expected / 1e3 - nearest).abs() < 0.001);
+    let half_way = path.segments[2].corner_distance().unwrap();
+    assert_eq!(distance.expected, half_way * 1e3);
     assert_eq!((corner.kind, corner.piece), ("joint", 0));
     assert!(corner.turn_deg.unwrap().abs() < 1e-6, "{corner:?}");
 }
