@@ -28,6 +28,7 @@ pub struct Files {
 
 /// A file that a command has written.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Named {
     pub path: String,
     bytes: u64,

@@ -67,6 +67,11 @@ Examples:
   motion-rtl clean build --dry-run
   motion-rtl clean build --yes";
 
+#[cfg(feature = "schema")]
+pub const SCHEMA: &str = "\
+Examples:
+  motion-rtl schema >summary.schema.json";
+
 #[cfg(feature = "shell")]
 pub const COMPLETIONS: &str = "\
 Examples:

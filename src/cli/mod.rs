@@ -32,6 +32,8 @@ mod pulse;
 mod report;
 mod rows;
 mod run;
+#[cfg(feature = "schema")]
+mod schema;
 mod series;
 mod setup;
 #[cfg(feature = "shell")]

@@ -58,6 +58,10 @@ enum Command {
     /// Removes the files that runs have written into a directory, after naming them.
     #[command(after_help = help::CLEAN)]
     Clean(super::clean::Arguments),
+    /// Prints a JSON schema of the summaries that `run --json` prints.
+    #[cfg(feature = "schema")]
+    #[command(after_help = help::SCHEMA)]
+    Schema,
     /// Prints the completions of a shell.
     #[cfg(feature = "shell")]
     #[command(after_help = help::COMPLETIONS)]
@@ -169,6 +173,8 @@ fn run(command: Option<Command>) -> Result<(), Failure> {
         Some(Command::List(arguments)) => super::list::list(&arguments),
         Some(Command::Keys(arguments)) => super::keys::keys(&arguments),
         Some(Command::Clean(arguments)) => super::clean::clean(&arguments),
+        #[cfg(feature = "schema")]
+        Some(Command::Schema) => super::schema::schema(),
         #[cfg(feature = "shell")]
         Some(Command::Completions(arguments)) => super::shell::completions(&arguments),
         #[cfg(feature = "shell")]

@@ -10,6 +10,7 @@ use std::ops::Range;
 
 /// Fields that all summaries share.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Outcome {
     /// Version of the keys.
     pub version: u32,

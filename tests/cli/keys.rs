@@ -1,5 +1,6 @@
 //! `keys`: what it prints, and that its schemas are those of the scenarios that ship.
 
+use super::json_schema::violations;
 use super::support::Bench;
 use serde_json::{Value, json};
 use std::fs;
@@ -15,72 +16,6 @@ const CIRCUITS: [&str; 6] = [
     "machine",
 ];
 
-/// What of a value a schema does not allow, with the place of each.
-fn violations(schema: &Value, value: &Value, place: &str, found: &mut Vec<String>) {
-    let mut wrong = |what: &str| found.push(format!("{place}: {value} is not {what}"));
-    let types = match &schema["type"] {
-        Value::Array(types) => types.clone(),
-        Value::Null => Vec::new(),
-        one => vec![one.clone()],
-    };
-    let is = |name: &Value| match name.as_str().expect("a name of a type") {
-        "object" => value.is_object(),
-        "array" => value.is_array(),
-        "string" => value.is_string(),
-        "boolean" => value.is_boolean(),
-        "number" => value.is_number(),
-        "integer" => value.is_i64() || value.is_u64(),
-        other => panic!("{place}: there is no type {other}"),
-    };
-    if !types.is_empty() && !types.iter().any(is) {
-        wrong(&format!("of type {}", schema["type"]));
-    }
-    if schema.get("const").is_some_and(|only| only != value) {
-        wrong(&schema["const"].to_string());
-    }
-    let names = schema.get("enum").and_then(Value::as_array);
-    if names.is_some_and(|names| !names.contains(value)) {
-        wrong(&format!("one of {}", schema["enum"]));
-    }
-    let number = |key: &str| schema.get(key).and_then(Value::as_f64);
-    if let Some(value) = value.as_f64() {
-        if number("minimum").is_some_and(|least| value < least) {
-            wrong(&format!("from {}", schema["minimum"]));
-        }
-        if number("maximum").is_some_and(|most| value > most) {
-            wrong(&format!("up to {}", schema["maximum"]));
-        }
-    }
-    if let Value::Array(list) = value {
-        let length = list.len() as f64;
-        if number("minItems").is_some_and(|least| length < least)
-            || number("maxItems").is_some_and(|most| length > most)
-        {
-            wrong("a list of its length");
-        }
-        for (index, element) in list.iter().enumerate() {
-            violations(
-                &schema["items"],
-                element,
-                &format!("{place}[{index}]"),
-                found,
-            );
-        }
-    }
-    let Value::Object(table) = value else { return };
-    for key in schema["required"].as_array().into_iter().flatten() {
-        if !table.contains_key(key.as_str().expect("a key")) {
-            found.push(format!("{place}: {key} is missing"));
-        }
-    }
-    for (key, value) in table {
-        match schema["properties"].get(key) {
-            Some(schema) => violations(schema, value, &format!("{place}.{key}"), found),
-            None => found.push(format!("{place}: there is no key {key}")),
-        }
-    }
-}
-
 /// What of a scenario in TOML its circuit's schema does not allow.
 fn judge(schemas: &[(&str, Value)], scenario: &str) -> Vec<String> {
     let scenario: toml::Table = scenario.parse().expect("TOML");
@@ -89,7 +24,7 @@ fn judge(schemas: &[(&str, Value)], scenario: &str) -> Vec<String> {
     let schema = schemas.iter().find(|(name, _)| *name == circuit);
     let mut found = Vec::new();
     if let Some((name, schema)) = schema {
-        violations(schema, &scenario, name, &mut found);
+        found = violations(schema, schema, &scenario, name);
     }
     found
 }

@@ -15,6 +15,7 @@ use crate::prelude::*;
 
 /// Correction added to the position commands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Correction {
     /// E = Pr − Ps, computed in every period (equations (6), (7)).
@@ -44,6 +45,7 @@ impl Correction {
 
 /// Correction of points.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct VectorCorrection {
     /// Width of a point in bits.

@@ -9,6 +9,7 @@ use std::fmt::{self, Write};
 
 /// The arm whose hand the commands are of.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmRows {
     /// Counts of a turn of a joint.
     pub counts_per_rev: u32,
@@ -20,6 +21,7 @@ pub struct ArmRows {
 
 /// A joint along the path.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct JointRow {
     /// Name of the joint.
     pub joint: &'static str,

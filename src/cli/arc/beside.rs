@@ -228,7 +228,8 @@ impl Beside {
 
 /// A circuit.
 #[derive(Debug, Serialize)]
-pub struct Row {
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct CircuitCost {
     pub circuit: &'static str,
     /// Adders, subtractors and comparators.
     pub adders: u64,
@@ -252,7 +253,7 @@ pub struct Row {
     pub error_bound_um: f64,
 }
 
-impl Row {
+impl CircuitCost {
     fn of(
         model: &Elaborated,
         played: &Played,
@@ -261,7 +262,7 @@ impl Row {
         let cost = model.cost();
         let needed = played.needed;
         let there = |ticks: u64| (ticks > 0).then_some(ticks);
-        Row {
+        CircuitCost {
             circuit: model.name(),
             adders: cost.adders,
             adder_bits: cost.adder_bits,
@@ -284,7 +285,7 @@ pub fn rows(
     played: &Played,
     figures: &Figures,
     measured: &Measured,
-) -> Result<Vec<Row>, RunError> {
+) -> Result<Vec<CircuitCost>, RunError> {
     let beside = &figures.beside;
     let compared = job.loaded.scenario.beside();
     if figures.arcs.is_empty() || compared && beside.arcs.is_empty() {
@@ -293,7 +294,7 @@ pub fn rows(
     let rounding = job.settings.rounding;
     let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     let own = [measured.error_max_um, measured.error_bound_um];
-    let own = Row::of(
+    let own = CircuitCost::of(
         &Elaborated::new(&arc_generator(&job.settings))?,
         played,
         own,
@@ -308,7 +309,7 @@ pub fn rows(
     ];
     Ok(vec![
         own,
-        Row::of(
+        CircuitCost::of(
             &Elaborated::new(&Conventional::new(rounding))?,
             &beside.played,
             other,

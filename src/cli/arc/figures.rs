@@ -3,7 +3,7 @@
 use super::Job;
 use super::beside::Beside;
 use super::mechanism::{Jolt, Jolting};
-use super::products::{Differing, Row as ProductsRow};
+use super::products::{Differing, ProductsBeside};
 use super::view::projected;
 use crate::cli::report::First;
 use crate::cli::thinned::Thinned;
@@ -25,7 +25,7 @@ pub struct Figures {
     /// The first sample that is farther from its exact point than arithmetic and rounding allow.
     pub astray: Option<String>,
     /// Comparison with blends by differences, if the run's blends are made by products.
-    pub differing: Option<ProductsRow>,
+    pub differing: Option<ProductsBeside>,
     /// Changes of speed, and what they make of the mechanism.
     pub jolt: Jolt,
     /// Tick of the first sample of the second segment.

@@ -12,7 +12,8 @@ use std::fmt;
 
 /// A way to make the commands.
 #[derive(Debug, Serialize)]
-pub struct Row {
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct SpeedChanges {
     /// Name of the method.
     pub method: &'static str,
     /// Largest change of speed from one sample to the next.
@@ -27,7 +28,7 @@ pub struct Row {
 
 /// Returns the path on the arc generator and, in a comparison, the worst of its arcs by the
 /// conventional method with and without ramps, each from rest to rest. Empty without arcs.
-pub fn rows(job: &Job, figures: &Figures) -> Vec<Row> {
+pub fn rows(job: &Job, figures: &Figures) -> Vec<SpeedChanges> {
     let compared = job.loaded.scenario.beside();
     if figures.arcs.is_empty() || compared && figures.beside.arcs.is_empty() {
         return Vec::new();
@@ -43,9 +44,9 @@ pub fn rows(job: &Job, figures: &Figures) -> Vec<Row> {
     methods.collect()
 }
 
-fn row(job: &Job, method: &'static str, jolt: Jolt) -> Row {
+fn row(job: &Job, method: &'static str, jolt: Jolt) -> SpeedChanges {
     let vibration = job.mechanism.map(|_| jolt.vibration);
-    Row {
+    SpeedChanges {
         method,
         speed_change_mm_per_s: jolt.speed_change,
         acceleration_mm_per_s2: jolt.speed_change / job.prepared.timing.sample_s,
@@ -115,7 +116,7 @@ impl Jolting {
 }
 
 /// Writes the rows as text.
-pub fn write(rows: &[Row], text: &mut String) -> fmt::Result {
+pub fn write(rows: &[SpeedChanges], text: &mut String) -> fmt::Result {
     if rows.is_empty() {
         return Ok(());
     }

@@ -15,6 +15,7 @@ mod view;
 mod waves;
 
 pub use job::Job;
+pub use summary::Summary;
 pub use waves::systems;
 
 use super::arguments::Arguments;
@@ -33,7 +34,6 @@ use motion_rtl::jobs::arc_generator::job::{Command, Played, arc_generator, play_
 use motion_rtl::sim::{Observer, RunError};
 use motion_rtl::trace::{Position, SeriesLayout, SeriesPlan};
 use picture::draw;
-use summary::Summary;
 
 /// About how long a sample takes.
 const SAMPLE_S: f64 = 1e-6;

@@ -24,7 +24,8 @@ const PRODUCT_TICKS: u64 = BlendPoint {
 
 /// Operations of a sample.
 #[derive(Debug, Serialize)]
-pub struct Row {
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct MethodOperations {
     pub method: &'static str,
     pub multiplications: u64,
     /// Sums, differences and comparisons.
@@ -35,7 +36,7 @@ pub struct Row {
 }
 
 /// Returns the circuit's row and, in a comparison, each method's; empty if the path has no arc.
-pub fn rows(job: &Job) -> Vec<Row> {
+pub fn rows(job: &Job) -> Vec<MethodOperations> {
     let mut arcs = job.prepared.pieces.iter();
     let found = arcs.find_map(|piece| Some((piece, piece.arc?)));
     let Some((piece, arc)) = found else {
@@ -68,7 +69,7 @@ pub fn rows(job: &Job) -> Vec<Row> {
     if let Ok(blends) = blends {
         rows.push(("circuit, blend and line", blends, Some(ticks)));
     }
-    let row = |(method, operations, ticks): (_, Operations, _)| Row {
+    let row = |(method, operations, ticks): (_, Operations, _)| MethodOperations {
         method,
         multiplications: operations.multiplications,
         additions: operations.additions,

@@ -10,7 +10,8 @@ use std::fmt::{self, Write};
 
 /// Differences between the commands and those of difference engines.
 #[derive(Debug, Clone, Copy, Serialize)]
-pub struct Row {
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ProductsBeside {
     /// Samples whose commands differ.
     pub samples_differing: u64,
     /// Largest difference of a coordinate in counts.
@@ -19,17 +20,18 @@ pub struct Row {
 
 /// Summary of a run whose blends are made by products.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Products {
     /// The most samples that a blend by differences may have.
     pub difference_samples_most: u64,
     /// Comparison with difference engines; `None` if a blend of this path exceeds their words.
-    pub differences: Option<Row>,
+    pub differences: Option<ProductsBeside>,
 }
 
 /// Comparison of successive commands with those of difference engines, which the circuit makes.
 pub struct Differing<'j> {
     others: Box<dyn Iterator<Item = [i64; COORDINATES]> + 'j>,
-    row: Row,
+    row: ProductsBeside,
 }
 
 impl<'j> Differing<'j> {
@@ -38,7 +40,7 @@ impl<'j> Differing<'j> {
         let records = job.differences.as_ref()?;
         Some(Differing {
             others: Box::new(commands(records, &Widths::FULL, job.settings.rounding)),
-            row: Row {
+            row: ProductsBeside {
                 samples_differing: 0,
                 counts_most: 0,
             },
@@ -56,7 +58,7 @@ impl<'j> Differing<'j> {
     }
 
     /// Returns the differences of all commands.
-    pub fn finish(self) -> Row {
+    pub fn finish(self) -> ProductsBeside {
         self.row
     }
 }

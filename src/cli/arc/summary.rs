@@ -19,11 +19,13 @@ use serde::Serialize;
 
 /// The summary of a run.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Summary {
     /// Fields that all summaries share.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// Settings of the run.
+    /// Settings of the run, by the keys of `keys arc_generator --json-schema`.
+    #[cfg_attr(feature = "schema", schemars(with = "crate::cli::schema::Settings"))]
     pub settings: Settings,
     /// Ts in ticks.
     pub sample_ticks: u32,
@@ -50,12 +52,12 @@ pub struct Summary {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub products: Option<Products>,
     /// Operations per sample.
-    pub operations: Vec<operations::Row>,
+    pub operations: Vec<operations::MethodOperations>,
     /// The circuit and, in a comparison, that of the conventional method.
-    pub circuits: Vec<beside::Row>,
+    pub circuits: Vec<beside::CircuitCost>,
     /// Changes of speed, and what they make of the mechanism, beside those of the conventional
     /// method where that is compared.
-    pub speed_changes: Vec<mechanism::Row>,
+    pub speed_changes: Vec<mechanism::SpeedChanges>,
     /// The joints of the arm, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub arm: Option<ArmRows>,

@@ -9,6 +9,7 @@ mod text;
 mod verdict;
 
 pub use job::Job;
+pub use summary::Summary;
 
 use super::arguments::Arguments;
 use super::progress::{self, Work};
@@ -27,7 +28,6 @@ use motion_rtl::plan::Plan;
 use motion_rtl::sim::{Elaborated, Observer, RunError};
 use motion_rtl::trace::{Position, SeriesLayout, SeriesPlan};
 use runs::UnderWay;
-use summary::Summary;
 
 /// About how long a tick takes, with all motors.
 const TICK_S: f64 = 150e-9;

@@ -9,6 +9,7 @@ use std::ops::RangeInclusive;
 
 /// A piece of the path by both machines.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PieceRow {
     /// Index of the piece.
     pub piece: usize,
@@ -76,6 +77,7 @@ fn row(job: &Job, one: &PieceMeasured) -> Option<PieceRow> {
 
 /// A step of the pen lift.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LiftRow {
     /// The piece that it was for.
     pub piece: usize,

@@ -12,11 +12,13 @@ use serde::Serialize;
 
 /// The summary of a run.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Summary {
     /// Fields that all summaries share.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// Settings of the run.
+    /// Settings of the run, by the keys of `keys machine --json-schema`.
+    #[cfg_attr(feature = "schema", schemars(with = "crate::cli::schema::Settings"))]
     pub settings: Settings,
     /// True if both machines came to rest at the job's end, on the nearest step and count.
     pub exact: bool,
@@ -37,6 +39,7 @@ pub struct Summary {
 
 /// Duration of the run by machine and activity, in seconds.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TimesRow {
     /// Time of the steppers, which do not stop between pieces.
     pub steppers_s: f64,

@@ -9,6 +9,7 @@ mod text;
 mod verdict;
 
 pub use job::Job;
+pub use summary::Summary;
 
 use super::arguments::Arguments;
 use super::progress::{self, Part, Work};
@@ -32,7 +33,6 @@ use motion_rtl::trace::SeriesLayout;
 use picture::draw;
 use runs::{FULL_FEED, IN_MOTION, Run, Runs, UnderWay};
 use std::thread;
-use summary::Summary;
 
 /// About how long a tick takes, with a motor and its load on each axis.
 const TICK_S: f64 = 100e-9;

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 /// A segment of the path.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SegmentRow {
     /// Its number.
     pub segment: usize,

@@ -38,6 +38,7 @@ impl Runs {
 
 /// The run by one correction, with its figures in the summary.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Run {
     pub correction: Correction,
     /// True at full feed, beside runs that a contour tolerance limits.

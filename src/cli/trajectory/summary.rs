@@ -12,11 +12,13 @@ use serde::Serialize;
 
 /// The summary of a run.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Summary<'r> {
     /// Fields that all summaries share.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// Settings of the run.
+    /// Settings of the run, by the keys of `keys trajectory_controller --json-schema`.
+    #[cfg_attr(feature = "schema", schemars(with = "crate::cli::schema::Settings"))]
     pub settings: Settings,
     pub axes: usize,
     /// Δt in ticks.
@@ -40,6 +42,7 @@ pub struct Summary<'r> {
 
 /// A path by its length.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PathSummary {
     pub segments: usize,
     /// L.
@@ -50,6 +53,7 @@ pub struct PathSummary {
 
 /// Result of the look-ahead.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlanSummary {
     /// T: from the first period to the last command.
     pub seconds: f64,
@@ -64,6 +68,7 @@ pub struct PlanSummary {
 
 /// Joint of two segments.
 #[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Joint {
     /// The segment that begins.
     pub segment: usize,

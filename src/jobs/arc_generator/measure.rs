@@ -12,6 +12,7 @@ use std::collections::VecDeque;
 
 /// Figure that was measured, and what its closed form says.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Pair {
     /// Measured on the commands.
     pub measured: f64,
@@ -21,6 +22,7 @@ pub struct Pair {
 
 /// Measures from the samples of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Measured {
     /// Greatest distance of a sample from its exact point.
     pub error_max_um: f64,
@@ -56,6 +58,7 @@ pub struct SampleMeasured {
 
 /// Arc and the measures of its rotation's samples.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArcMeasured {
     /// Index of the segment.
     #[serde(skip)]
@@ -105,6 +108,7 @@ pub struct ArcMeasured {
 
 /// Start or end of a rotation beside its blend.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EndMeasured {
     /// "A+" or "C-".
     pub at: &'static str,
@@ -122,6 +126,7 @@ pub struct EndMeasured {
 
 /// Line of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LinePlanned {
     /// Index of the piece, from 0.
     pub piece: usize,
@@ -139,6 +144,7 @@ pub struct LinePlanned {
 
 /// Blend and the measures of its samples.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct BlendMeasured {
     /// Index of the segment.
     #[serde(skip)]

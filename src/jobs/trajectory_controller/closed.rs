@@ -161,6 +161,7 @@ pub struct Steady {
 /// Mean contour errors of the steady part of a run, by one correction; inwards positive where there
 /// is a sign.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CircleMeasured {
     /// Radius r.
     pub radius_mm: f64,

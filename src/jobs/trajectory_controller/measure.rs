@@ -36,6 +36,7 @@ pub struct Deviation {
 
 /// Errors of models, motors or loads.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Errors {
     /// Deviations, period by period; empty for [`Measuring`].
     #[serde(skip)]
@@ -62,6 +63,7 @@ pub struct Errors {
 
 /// Measures of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AxisMeasured {
     /// Name of the axis.
     pub axis: &'static str,
@@ -77,6 +79,7 @@ pub struct AxisMeasured {
 
 /// Measures of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Measured {
     /// Errors of the servos' models, which the motors follow.
     pub model: Errors,

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 /// End position of a machine.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct End {
     /// Name of the machine's drive: steppers, commands or encoders.
     pub what: &'static str,
@@ -24,6 +25,7 @@ pub struct End {
 
 /// End positions of both machines.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Ends {
     /// End of the job.
     pub end_mm: [f64; 2],

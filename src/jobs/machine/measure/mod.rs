@@ -24,6 +24,7 @@ const ON_PATH_MM: f64 = 1e-9;
 
 /// Reason for a deviation from the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
     /// Steppers have whole steps only.
@@ -66,6 +67,7 @@ impl Reason {
 
 /// Point at which a machine is farthest from a piece of the path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Farthest {
     /// Distance from the piece.
     pub um: f64,

@@ -1,0 +1,188 @@
+//! The JSON of summaries against the schema that is checked in.
+
+use super::json_schema::violations;
+use super::support::Bench;
+use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
+
+/// Scenarios that ship and take long.
+const LONG: [&str; 1] = ["turntable"];
+
+fn file(name: &str) -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).unwrap()
+}
+
+fn schema() -> Value {
+    serde_json::from_str(&file("rtl_notes/summary.schema.json")).unwrap()
+}
+
+/// Returns what of a summary the schema of its circuit does not allow.
+fn judge(schema: &Value, summary: &Value) -> Vec<String> {
+    let circuit = &summary["circuit"];
+    let kinds = schema["$defs"].as_object().unwrap().values();
+    let kinds = kinds.filter(|kind| &kind["properties"]["circuit"]["const"] == circuit);
+    let found = kinds.map(|kind| violations(schema, kind, summary, "summary"));
+    let found = found.min_by_key(Vec::len);
+    found.unwrap_or_else(|| panic!("no summary is of {circuit}"))
+}
+
+/// Returns what of the settings in a summary the schema of the scenarios does not allow.
+fn judge_settings(bench: &Bench, summary: &Value) -> Vec<String> {
+    let Some(settings) = summary["settings"].as_object() else {
+        return Vec::new();
+    };
+    let circuit = summary["circuit"].as_str().unwrap();
+    let mut schema: Value =
+        serde_json::from_str(&bench.succeed(&["keys", circuit, "--json-schema"])).unwrap();
+    // The circuit and the input stand beside the settings; `null` is not set.
+    schema["required"] = json!([]);
+    let set = settings.iter().filter(|(_, value)| !value.is_null());
+    let set: Value = set
+        .map(|(key, value)| (key.clone(), without_nulls(value)))
+        .collect();
+    violations(&schema, &schema, &set, "settings")
+}
+
+fn without_nulls(value: &Value) -> Value {
+    match value {
+        Value::Object(table) => {
+            let set = table.iter().filter(|(_, value)| !value.is_null());
+            set.map(|(key, value)| (key.clone(), without_nulls(value)))
+                .collect()
+        }
+        Value::Array(list) => list.iter().map(without_nulls).collect(),
+        _ => value.clone(),
+    }
+}
+
+/// Runs scenarios that ship, whose summaries must be those of the schema.
+fn run(long: bool) {
+    let (bench, schema) = (Bench::new(), schema());
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("waves");
+    let mut judged = 0;
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let stem = path.file_stem().unwrap().to_str().unwrap();
+        if path.extension().is_none_or(|extension| extension != "toml")
+            || LONG.contains(&stem) != long
+        {
+            continue;
+        }
+        let scenario = path.to_str().unwrap();
+        let summary = bench.json(&["run", scenario, "--no-vcd", "--out", "out"]);
+        let found = [judge(&schema, &summary), judge_settings(&bench, &summary)].concat();
+        assert!(found.is_empty(), "{stem}: {found:#?}");
+        judged += 1;
+    }
+    assert!(judged >= if long { LONG.len() } else { 19 }, "{judged}");
+}
+
+#[test]
+fn summaries_of_scenarios_that_ship_are_those_of_the_schema() {
+    run(false);
+}
+
+#[test]
+#[ignore = "takes long"]
+fn summaries_of_long_scenarios_are_those_of_the_schema() {
+    run(true);
+}
+
+/// Every change of a summary's keys or types is a violation.
+#[test]
+fn another_summary_is_not_that_of_the_schema() {
+    let (bench, schema) = (Bench::new(), schema());
+    let good = bench.json(&["run", "joint", "--no-vcd"]);
+    assert_eq!(judge(&schema, &good), [""; 0]);
+    type Change = fn(&mut Value);
+    let cases: [(Change, &str); 7] = [
+        (
+            |summary| {
+                let samples = summary["samples"].take();
+                summary.as_object_mut().unwrap().remove("samples");
+                summary["sample_count"] = samples;
+            },
+            "summary: \"samples\" is missing, summary: there is no key sample_count",
+        ),
+        (
+            |summary| {
+                drop(
+                    summary["arcs"][0]
+                        .as_object_mut()
+                        .unwrap()
+                        .remove("bound_um"),
+                )
+            },
+            "summary.arcs[0]: \"bound_um\" is missing",
+        ),
+        (
+            |summary| summary["arcs"][0]["ends"][1]["rest_s"] = json!(1.5),
+            "summary.arcs[0].ends[1]: there is no key rest_s",
+        ),
+        (
+            |summary| summary["blend_samples"] = json!("20"),
+            "summary.blend_samples: \"20\" is not of type \"integer\"",
+        ),
+        (
+            |summary| summary["blends"][0]["corner_distance_um"] = json!(1),
+            "summary.blends[0].corner_distance_um: 1 is not of type \"object\"",
+        ),
+        (
+            |summary| summary["lines"][0]["line"] = json!(-1),
+            "summary.lines[0].line: -1 is not from 0",
+        ),
+        (
+            |summary| summary["end_position"] = json!([1, 2]),
+            "summary.end_position: [1,2] is not a list of its length",
+        ),
+    ];
+    for (change, expected) in cases {
+        let mut other = good.clone();
+        change(&mut other);
+        assert_eq!(judge(&schema, &other).join(", "), expected);
+    }
+}
+
+#[test]
+fn every_property_has_a_type_and_a_description() {
+    let schema = schema();
+    let (mut count, mut bare) = (0, Vec::new());
+    look(&schema, "", &mut |place, property| {
+        count += 1;
+        let typed = ["type", "$ref", "anyOf", "oneOf", "enum", "const"];
+        let typed = typed.iter().any(|key| property.get(key).is_some());
+        let described = property["description"]
+            .as_str()
+            .is_some_and(|text| text.len() > 3);
+        if !typed || !described {
+            bare.push(place.to_owned());
+        }
+    });
+    assert!(count > 150, "{count}");
+    assert_eq!(bare, [""; 0]);
+    look_at_tables(&schema, "", &mut |place, table| {
+        assert_eq!(table["additionalProperties"], false, "{place}");
+        assert!(table["required"].is_array(), "{place}");
+    });
+}
+
+/// Visits every table of a schema that has properties.
+fn look_at_tables(schema: &Value, place: &str, visit: &mut dyn FnMut(&str, &Value)) {
+    if schema["properties"].is_object() && schema["type"] == "object" {
+        visit(place, schema);
+    }
+    let children = schema.as_object().into_iter().flatten();
+    for (key, child) in children {
+        look_at_tables(child, &format!("{place}/{key}"), visit);
+    }
+}
+
+/// Visits every property of a schema.
+fn look(schema: &Value, place: &str, visit: &mut dyn FnMut(&str, &Value)) {
+    look_at_tables(schema, place, &mut |place, table| {
+        for (key, property) in table["properties"].as_object().into_iter().flatten() {
+            visit(&format!("{place}/{key}"), property);
+        }
+    });
+}
