@@ -30,7 +30,9 @@ pub struct Files {
 #[derive(Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Named {
+    /// Path of the file, as the command was given it.
     pub path: String,
+    /// Size of the file.
     bytes: u64,
 }
 

@@ -1,6 +1,6 @@
 //! `schema`: a JSON schema of the summaries that `run --json` prints.
 
-use super::{Failure, arc, machine, print, trajectory};
+use super::{Failure, arc, lead_angle, linear, machine, print, pulse, trajectory, waves_of};
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
 use schemars::{JsonSchema, Schema};
@@ -17,9 +17,16 @@ pub fn schema() -> Result<(), Failure> {
 /// Returns the schema of every summary; each kind is one of its definitions.
 fn of_all() -> Value {
     let kinds = [
-        of::<arc::Summary>("arc_generator", "arc_generator"),
-        of::<trajectory::Summary<'_>>("trajectory_controller", "trajectory_controller"),
-        of::<machine::Summary>("machine", "machine"),
+        of::<pulse::Summary>("pulse_interpolator", Some("pulse_interpolator")),
+        of::<pulse::patterns::Summary>("patterns", Some("pulse_interpolator")),
+        of::<pulse::patterns::groups::Summary>("groups", Some("pulse_interpolator_groups")),
+        of::<linear::Summary>("linear_interpolator", Some("linear_interpolator")),
+        of::<lead_angle::Summary>("lead_angle", Some("lead_angle")),
+        of::<lead_angle::log::Summary>("position_log", Some("lead_angle")),
+        of::<arc::Summary>("arc_generator", Some("arc_generator")),
+        of::<trajectory::Summary<'_>>("trajectory_controller", Some("trajectory_controller")),
+        of::<machine::Summary>("machine", Some("machine")),
+        of::<waves_of::Summary>("waves_of", None),
     ];
     let references = kinds
         .iter()
@@ -32,8 +39,8 @@ fn of_all() -> Value {
     })
 }
 
-/// Returns the name and the schema of a kind of summary, which `circuit` gives.
-fn of<T: JsonSchema>(kind: &str, circuit: &str) -> (String, Value) {
+/// Returns the name and the schema of a kind of summary; of one circuit or of any.
+fn of<T: JsonSchema>(kind: &str, circuit: Option<&str>) -> (String, Value) {
     let settings = SchemaSettings::draft2020_12()
         .for_serialize()
         .with(|settings| {
@@ -45,7 +52,11 @@ fn of<T: JsonSchema>(kind: &str, circuit: &str) -> (String, Value) {
         .into_generator()
         .into_root_schema_for::<T>()
         .to_value();
-    schema["properties"]["circuit"]["const"] = json!(circuit);
+    // The generator puts definitions where the whole has them.
+    schema["$defs"] = schema["$defs"][kind]["$defs"].take();
+    if let Some(name) = circuit {
+        schema["properties"]["circuit"]["const"] = json!(name);
+    }
     schema["title"] = json!(kind.replace('_', " "));
     (kind.to_owned(), schema)
 }

@@ -45,6 +45,7 @@ struct Output<'a> {
 
 /// Effect of scaling the data on an axis.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AxisDeviation {
     /// Largest difference from the ideal in one unit time, in pulses.
     pub largest_deviation_pulses_per_unit: f64,

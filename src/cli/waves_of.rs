@@ -90,7 +90,9 @@ impl<'a> System<'a> {
 
 /// The summary of a system that was played alone.
 #[derive(Debug, Serialize)]
-struct Summary {
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Summary {
+    /// Fields that all summaries share.
     #[serde(flatten)]
     outcome: Outcome,
     /// Name in the summary of the scenario.

@@ -93,7 +93,7 @@ fn summaries_of_long_scenarios_are_those_of_the_schema() {
 #[test]
 fn another_summary_is_not_that_of_the_schema() {
     let (bench, schema) = (Bench::new(), schema());
-    let good = bench.json(&["run", "joint", "--no-vcd"]);
+    let good = bench.json(&["run", "joint.toml", "--no-vcd"]);
     assert_eq!(judge(&schema, &good), [""; 0]);
     type Change = fn(&mut Value);
     let cases: [(Change, &str); 7] = [

@@ -230,6 +230,7 @@ impl Beside {
 #[derive(Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CircuitCost {
+    /// Name of the circuit.
     pub circuit: &'static str,
     /// Adders, subtractors and comparators.
     pub adders: u64,
@@ -254,11 +255,7 @@ pub struct CircuitCost {
 }
 
 impl CircuitCost {
-    fn of(
-        model: &Elaborated,
-        played: &Played,
-        [error_max_um, error_bound_um]: [f64; 2],
-    ) -> Self {
+    fn of(model: &Elaborated, played: &Played, [error_max_um, error_bound_um]: [f64; 2]) -> Self {
         let cost = model.cost();
         let needed = played.needed;
         let there = |ticks: u64| (ticks > 0).then_some(ticks);

@@ -26,10 +26,13 @@ const PRODUCT_TICKS: u64 = BlendPoint {
 #[derive(Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MethodOperations {
+    /// Name of the method and what it computes.
     pub method: &'static str,
+    /// Products.
     pub multiplications: u64,
     /// Sums, differences and comparisons.
     pub additions: u64,
+    /// Sines and cosines.
     pub sines_and_cosines: u64,
     /// Ticks that the circuit takes.
     pub ticks: Option<u64>,

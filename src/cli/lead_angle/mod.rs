@@ -2,7 +2,7 @@
 //! and picture.
 
 mod job;
-mod log;
+pub mod log;
 mod picture;
 mod summary;
 mod systems;
@@ -10,6 +10,7 @@ mod text;
 pub mod waves;
 
 pub use job::Job;
+pub use summary::Summary;
 
 use super::arguments::Arguments;
 use super::progress::{self, Part, Work};
@@ -24,7 +25,6 @@ use motion_rtl::plant::waves::Body;
 use motion_rtl::sim::{Elaborated, RunError};
 use motion_rtl::trace::{Position, SeriesLayout};
 use rayon::prelude::*;
-use summary::Summary;
 use systems::{NONE, System, systems};
 
 /// About how long a tick takes, with the body.

@@ -13,11 +13,13 @@ const SETTLED_WITHIN: usize = 6;
 
 /// The summary of a run.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Summary {
     /// Fields that all summaries share.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// Settings of the run.
+    /// Settings of the run, by the keys of `keys lead_angle --json-schema`.
+    #[cfg_attr(feature = "schema", schemars(with = "crate::cli::schema::Settings"))]
     pub settings: Settings,
     /// All systems with their errors.
     pub systems: Vec<SystemSummary>,
@@ -33,7 +35,9 @@ pub struct Summary {
 
 /// Figures of all positionings on one system.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SystemSummary {
+    /// Name of the system.
     pub name: &'static str,
     /// True if the scenario selects this system.
     pub own: bool,
@@ -52,6 +56,7 @@ pub struct SystemSummary {
 
 /// The steps while the load stays the same.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Phase {
     /// From this positioning on, from 0.
     pub from: usize,
@@ -59,16 +64,19 @@ pub struct Phase {
     pub to: usize,
     /// The load has changed.
     pub loaded: bool,
+    /// Each step in the phase.
     pub steps: Vec<StepSummary>,
 }
 
 /// One step in one phase.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StepSummary {
     /// Its number.
     pub step: usize,
     /// Sx in counts, from where targets count from.
     pub target: i64,
+    /// Speed of the step.
     pub speed_counts_per_s: u32,
     /// Count of its positionings in the phase.
     pub positionings: usize,
@@ -83,6 +91,7 @@ pub struct StepSummary {
 
 /// Result of a step in a phase, by a lead that is a time.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StepLead {
     /// Lead time of the last positioning.
     #[serde(flatten)]
@@ -97,6 +106,7 @@ pub struct StepLead {
 
 /// The lead time of a positioning.
 #[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Lead {
     /// Lead time in milliseconds.
     pub lead_ms: f64,
@@ -106,6 +116,7 @@ pub struct Lead {
 
 /// Positionings until learning stays within a code's travel; `null` if it never does.
 #[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ByFunction {
     /// To first order.
     pub first_order: Option<usize>,
@@ -116,6 +127,7 @@ pub struct ByFunction {
 }
 
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Row {
     /// Its number, from 0.
     pub positioning: usize,

@@ -9,6 +9,7 @@ mod text;
 mod verdict;
 
 pub use job::Job;
+pub use summary::Summary;
 
 use super::arguments::Arguments;
 use super::progress::{self, Part, Work};
@@ -31,7 +32,6 @@ use motion_rtl::trace::SeriesLayout;
 use picture::draw;
 use runs::{Run, Runs, UnderWay};
 use std::thread;
-use summary::Summary;
 
 /// About how long a tick takes, with both motors.
 const TICK_S: f64 = 50e-9;

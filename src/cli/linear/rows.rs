@@ -9,6 +9,7 @@ use serde::Serialize;
 
 /// One cycle, played by all systems.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Row {
     /// Its number, from 0.
     pub segment: usize,
@@ -45,6 +46,7 @@ pub struct Row {
 
 /// Figures of a cycle on one system.
 #[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Figures {
     /// Scans from the first command to the last.
     pub scans: usize,

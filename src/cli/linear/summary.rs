@@ -12,11 +12,13 @@ use serde::Serialize;
 
 /// The summary of a run.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Summary {
     /// Fields that all summaries share.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// Settings of the run.
+    /// Settings of the run, by the keys of `keys linear_interpolator --json-schema`.
+    #[cfg_attr(feature = "schema", schemars(with = "crate::cli::schema::Settings"))]
     pub settings: Settings,
     /// Scans of the run.
     pub scans: usize,
@@ -39,15 +41,19 @@ pub struct Summary {
     /// The conventional system, speeds in proportion to the distances, times inverse to them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub conventional_in_proportion: Option<SystemSummary>,
+    /// Every cycle.
     pub segments: Vec<Row>,
 }
 
 /// Figures of all cycles on one system.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SystemSummary {
+    /// Ticks of the run.
     pub ticks: u64,
     /// Duration in seconds.
     pub seconds: f64,
+    /// Scans of the run.
     pub scans: usize,
     /// The last command, in counts.
     pub end_position: [i64; 2],

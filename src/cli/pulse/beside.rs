@@ -15,6 +15,7 @@ use serde::Serialize;
 
 /// A device.
 #[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Row {
     /// Its circuit.
     pub circuit: &'static str,

@@ -21,6 +21,17 @@ impl<T> FromIterator<T> for ByAxis<T> {
     }
 }
 
+#[cfg(feature = "schema")]
+impl<T: schemars::JsonSchema> schemars::JsonSchema for ByAxis<T> {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        format!("{}ByAxis", T::schema_name()).into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        std::collections::BTreeMap::<String, T>::json_schema(generator)
+    }
+}
+
 impl<T: Serialize> Serialize for ByAxis<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.0.iter().map(|(name, row)| (name, row)))

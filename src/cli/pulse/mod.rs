@@ -13,7 +13,7 @@ mod verdict;
 mod waves;
 
 pub use job::{Job, table_fault};
-pub use summary::{TableSummary, warnings};
+pub use summary::{Summary, TableSummary, warnings};
 pub use waves::{own, systems};
 
 use super::Failure;
@@ -36,7 +36,6 @@ use motion_rtl::plan::Plan;
 use motion_rtl::sim::Observer;
 use motion_rtl::trace::SeriesPlan;
 use picture::{Following, draw};
-use summary::Summary;
 
 /// About how long a unit time takes where idle ticks are gone over, and a tick where they are not.
 const UNIT_S: f64 = 0.5e-6;

@@ -14,6 +14,7 @@ pub type Rows = ByAxis<Row>;
 
 /// Step rates of an axis.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Row {
     /// Largest step rate.
     pub largest_per_s: f64,
@@ -26,6 +27,7 @@ pub struct Row {
 }
 
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MotorRow {
     /// Largest distance between rotor and field, in full steps.
     pub off_full_steps: f64,

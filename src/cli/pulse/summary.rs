@@ -13,6 +13,7 @@ use serde::Serialize;
 
 /// The summary of a run.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Summary {
     /// Fields that all summaries share.
     #[serde(flatten)]
@@ -22,9 +23,11 @@ pub struct Summary {
     /// True if every unit time has the pulses of its word, and every axis ended at its demanded
     /// position and met the driver's timing.
     pub exact: bool,
+    /// Each axis of the run.
     pub axes: ByAxis<AxisSummary>,
     /// Step rates of each axis, and its motor.
     pub step_rates: Rows,
+    /// The table.
     #[serde(flatten)]
     pub table: TableSummary,
     /// Unit times without pulses between two patterns of the memory.
@@ -35,7 +38,9 @@ pub struct Summary {
 
 /// The table of a run.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TableSummary {
+    /// Unit times of the table.
     pub units: usize,
     /// Unit times after the end of the path.
     pub appended_units: usize,
@@ -48,12 +53,15 @@ pub struct TableSummary {
 /// One axis of a run, as its motor driver saw it. Steps and positions are signed, from where the
 /// axis began.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AxisSummary {
     /// Steps from the start to the end of the path.
     pub steps_demanded: i64,
     /// Steps up less steps down.
     pub pulses_emitted: i64,
+    /// Pulses in the positive direction.
     pub pulses_up: u64,
+    /// Pulses in the negative direction.
     pub pulses_down: u64,
     /// Position at the end, in steps from the drawing's origin.
     pub end_position: i64,
@@ -65,6 +73,7 @@ pub struct AxisSummary {
 
 /// Shortest times on the step and direction lines, in ticks.
 #[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Minima {
     /// High time of a step pulse.
     pub high: Option<u64>,

@@ -17,10 +17,11 @@ pub struct SegmentRow {
     pub line: Option<usize>,
     /// "line", "arc", "helix", "spline" or "rapid".
     pub kind: &'static str,
+    /// Length along the path.
     pub length_mm: f64,
     /// Radius of curvature of an arc or a helix; of a spline the least.
     pub radius_mm: Option<f64>,
-    /// F.
+    /// Requested speed F.
     pub speed_wanted_mm_per_s: f64,
     /// Limit of F by the acceleration across the path.
     pub speed_limit_mm_per_s: f64,

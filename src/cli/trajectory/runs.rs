@@ -40,6 +40,7 @@ impl Runs {
 #[derive(Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Run {
+    /// Correction of the commands.
     pub correction: Correction,
     /// True at full feed, beside runs that a contour tolerance limits.
     pub full_feed: bool,

@@ -20,6 +20,7 @@ pub struct Summary<'r> {
     /// Settings of the run, by the keys of `keys trajectory_controller --json-schema`.
     #[cfg_attr(feature = "schema", schemars(with = "crate::cli::schema::Settings"))]
     pub settings: Settings,
+    /// Number of axes.
     pub axes: usize,
     /// Δt in ticks.
     pub period_ticks: u32,
@@ -33,10 +34,13 @@ pub struct Summary<'r> {
     pub periods: usize,
     /// True if every command is on the path and every run came to rest at the path's end.
     pub exact: bool,
+    /// The path.
     pub path: PathSummary,
+    /// The plan of its speed.
     pub plan: PlanSummary,
     /// Results by correction.
     pub corrections: &'r [Run],
+    /// Every segment of the path.
     pub segments: Vec<SegmentRow>,
 }
 
@@ -44,8 +48,9 @@ pub struct Summary<'r> {
 #[derive(Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PathSummary {
+    /// Number of segments.
     pub segments: usize,
-    /// L.
+    /// Length L of the path.
     pub length_mm: f64,
     /// Pieces without a segment: they begin and end at the same guard unit.
     pub zero_length: usize,
@@ -57,6 +62,7 @@ pub struct PathSummary {
 pub struct PlanSummary {
     /// T: from the first period to the last command.
     pub seconds: f64,
+    /// Highest planned speed along the path.
     pub speed_max_mm_per_s: f64,
     /// Acceleration along the path.
     pub acceleration_mm_per_s2: f64,

@@ -24,36 +24,53 @@ use std::collections::BTreeMap;
 
 /// The summary of a log.
 #[derive(Debug, Serialize)]
-struct Summary {
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Summary {
+    /// Fields that all summaries share.
     #[serde(flatten)]
     outcome: Outcome,
-    /// The columns of the log that were taken.
+    /// Column of the log that has the times.
     time_column: String,
-    /// The unit of the times, and what says so.
+    /// Unit of the times.
     time_unit: String,
+    /// Origin of the unit.
     time_unit_from: &'static str,
+    /// Column of the log that has the counts.
     counts_column: String,
     /// The counts' column was asked for, or is called so.
     #[serde(skip)]
     counts_named: bool,
+    /// Samples of the log.
     samples: usize,
+    /// CK in ticks.
     ck_ticks: u32,
-    /// Predictions with a lead that the log can judge, and their errors in counts.
+    /// Predictions with a lead that the log can judge.
     predictions: u64,
+    /// Root mean square of their errors.
     error_rms_counts: f64,
+    /// Largest of their errors.
     error_max_counts: f64,
+    /// Root mean square of the errors without a lead.
     without_lead_rms_counts: f64,
+    /// Largest of the errors without a lead.
     without_lead_max_counts: f64,
+    /// Every signal.
     signals: Vec<Row>,
 }
 
 /// One signal.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct Row {
+    /// Index of the step, from 0.
     step: usize,
+    /// Target of the step, in counts.
     target: i64,
+    /// Tick of the signal.
     tick: u64,
+    /// Time of the signal.
     seconds: f64,
+    /// Lead time.
     lead_ms: f64,
     /// Position at the signal.
     position: i64,

@@ -283,18 +283,22 @@ fn draw(job: &Job, played: &[Played; 2]) -> String {
 
 /// Summary of a run of two groups.
 #[derive(Debug, Serialize)]
-struct Summary {
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Summary {
+    /// Fields that all summaries share.
     #[serde(flatten)]
     outcome: Outcome,
     /// Variant of RST.
     variant: &'static str,
     /// True if every unit time has the pulses of its word and every axis kept the driver's timing.
     exact: bool,
+    /// Both groups.
     groups: [GroupSummary; 2],
 }
 
 /// Results of a group.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct GroupSummary {
     /// Names of its patterns, in the order in which they were played.
     play: Vec<String>,
@@ -310,6 +314,7 @@ struct GroupSummary {
     units: usize,
     /// Unit times without pulses between two patterns.
     idle_units: u64,
+    /// Each axis of the group.
     axes: ByAxis<AxisSummary>,
 }
 

@@ -21,7 +21,7 @@ use motion_rtl::jobs::pulse_interpolator::{AxisScaling, StepTiming, Stored, Stor
 use motion_rtl::picture::{Curve, Panel, Picture, Points};
 use motion_rtl::scenario::Loaded;
 use motion_rtl::scenario::pulse_interpolator::{PatternKeys, Settings};
-use summary::Summary;
+pub use summary::Summary;
 
 /// Patterns ready to be played.
 pub struct Job {

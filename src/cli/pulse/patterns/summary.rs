@@ -17,7 +17,9 @@ use std::fmt::Write as _;
 
 /// Summary of a run of patterns.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Summary {
+    /// Fields that all summaries share.
     #[serde(flatten)]
     outcome: Outcome,
     /// Reset variant: the state that RST clears.
@@ -32,7 +34,9 @@ pub struct Summary {
     rewrites: usize,
     /// Words of memory per axis: used by the patterns, and in total.
     memory_words: [u64; 2],
+    /// Patterns of the memory.
     patterns: Vec<PatternSummary>,
+    /// Each axis of the run.
     axes: ByAxis<AxisSummary>,
     /// Step rates of each axis, and its motor.
     step_rates: Rows,
@@ -44,8 +48,11 @@ pub struct Summary {
 
 /// A pattern of the memory.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct PatternSummary {
+    /// Name of the pattern.
     name: String,
+    /// Table of the pattern.
     table: String,
     /// First and last address.
     addresses: [u64; 2],
@@ -63,10 +70,15 @@ struct PatternSummary {
 
 /// An axis, as its motor driver saw it.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(super) struct AxisSummary {
+    /// Pulses in the positive direction.
     pulses_up: u64,
+    /// Pulses in the negative direction.
     pulses_down: u64,
+    /// Position at the end, in steps.
     end_position: i64,
+    /// Shortest times on the step and direction lines, in ticks.
     timing_min_ticks: Minima,
 }
 

@@ -25,6 +25,7 @@ pub struct Report {
 /// Unit time for lines and arcs alike with which every demand of the path is attainable, confirmed
 /// by compiling with it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Remedy {
     /// Unit time T in ticks, below the longer one set.
     pub period: u32,
@@ -63,6 +64,7 @@ impl AxisReport {
 /// Greatest following error of an axis and its time: the distance between the emitted pulses and
 /// the exact, unrounded demand, at any time, including just before and after each pulse.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FollowingError {
     /// Error in steps.
     pub steps: f64,
