@@ -39,7 +39,7 @@ fn run(directory: &Path, program: &str, arguments: &[&str]) -> String {
 }
 
 fn build(directory: &Path) {
-    let verilog = Verilog::of(&integrator()).expect("a circuit that can be printed");
+    let verilog = Verilog::new(&integrator()).expect("a circuit that can be printed");
     let mut files = vec!["sweep.cpp".to_owned()];
     for source in verilog.sources() {
         fs::write(directory.join(&source.name), source.text).expect("room");

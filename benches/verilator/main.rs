@@ -15,17 +15,14 @@
 //! everything works: one run of few ticks each, Verilated code unoptimised. A word selects the circuits
 //! whose names contain it.
 
-mod jobs;
 mod ours;
-mod stimulus;
 mod theirs;
 
-use jobs::{Clock, Job};
 use motion_rtl::hdl::Circuit;
-use motion_rtl::sim::Simulator;
+use motion_rtl::scenario::shipped::{self, Clock, Recorded, ShippedError};
+use motion_rtl::sim::{RecordedInputs, Simulator};
 use ours::{Ours, Waves, Way};
 use std::time::{Duration, Instant};
-use stimulus::Stimulus;
 use theirs::{Build, Builds, Verilated};
 
 /// Outputs that are read now and then are read in every so many ticks.
@@ -107,19 +104,27 @@ impl Times {
 }
 
 /// Measures a circuit at both clocks.
-fn circuit<C: Circuit>(asked: &Asked, name: &str, job: impl Fn(u64, Clock) -> Job<C>) {
+fn circuit<C: Circuit>(
+    asked: &Asked,
+    name: &str,
+    job: impl Fn(u64, Clock) -> Result<Recorded<C>, ShippedError>,
+) {
     measure(asked, name, |ticks| job(ticks, Clock::Shipped));
     let fast = format!("{name}, 10 MHz");
     measure(asked, &fast, |ticks| job(ticks, Clock::Fast));
 }
 
 /// Measures a job: untraced over all of the stimulus, with waves over its end.
-fn measure<C: Circuit>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C>) {
+fn measure<C: Circuit>(
+    asked: &Asked,
+    name: &str,
+    job: impl FnOnce(u64) -> Result<Recorded<C>, ShippedError>,
+) {
     if asked.only.as_ref().is_some_and(|only| !name.contains(only)) {
         return;
     }
-    let Job { circuit, stimulus } = job(asked.ticks(UNTRACED));
-    let (circuit, stimulus) = (&circuit, &stimulus);
+    let Recorded { circuit, inputs } = job(asked.ticks(UNTRACED)).expect("it ships");
+    let (circuit, stimulus) = (&circuit, &inputs);
     if asked.alone {
         alone(asked, name, circuit, stimulus);
         return;
@@ -165,7 +170,7 @@ fn measure<C: Circuit>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C
 
 /// The model without Verilator: how long it takes to elaborate, plan and compile it, and medians of
 /// all ways to run it.
-fn alone<C: Circuit>(asked: &Asked, name: &str, circuit: &C, stimulus: &Stimulus) {
+fn alone<C: Circuit>(asked: &Asked, name: &str, circuit: &C, stimulus: &RecordedInputs) {
     let begun = Instant::now();
     let (mut simulator, _) =
         Simulator::watching(circuit, false, |watch| watch.ports_out()).expect("a netlist");
@@ -216,11 +221,11 @@ fn main() {
             "nanoseconds a tick", "", "Verilator", "ours", "ratio", "fastest"
         );
     }
-    circuit(asked, "pulse interpolator, 2 axes", jobs::bracket);
-    measure(asked, "pulse interpolator, 8 axes", jobs::eight_axes);
-    circuit(asked, "linear interpolator", jobs::plotting);
-    circuit(asked, "lead-angle compensator", jobs::turntable);
-    circuit(asked, "arc generator", jobs::weld);
-    circuit(asked, "trajectory controller", jobs::pocket);
-    circuit(asked, "machine of all five", jobs::machine);
+    circuit(asked, "pulse interpolator, 2 axes", shipped::bracket);
+    measure(asked, "pulse interpolator, 8 axes", shipped::eight_axes);
+    circuit(asked, "linear interpolator", shipped::plotting);
+    circuit(asked, "lead-angle compensator", shipped::turntable);
+    circuit(asked, "arc generator", shipped::weld);
+    circuit(asked, "trajectory controller", shipped::pocket);
+    circuit(asked, "machine of all five", shipped::machine);
 }

@@ -1,9 +1,8 @@
 //! The model on a recorded stimulus.
 
-use super::stimulus::{Replay, Stimulus};
 use super::theirs::ROTATION;
 use motion_rtl::hdl::Circuit;
-use motion_rtl::sim::{Observer, RunError, Sample, Simulator};
+use motion_rtl::sim::{Observer, RecordedInputs, RunError, Sample, Simulator};
 use motion_rtl::trace::{Clock, Fst, Options, Vcd, VcdBehind};
 use std::fs::File;
 use std::ops::ControlFlow;
@@ -11,7 +10,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// One word that all outputs have a part in.
-pub fn word<C: Circuit>(outputs: &[usize], now: &Sample<'_, C>) -> u64 {
+fn word<C: Circuit>(outputs: &[usize], now: &Sample<'_, C>) -> u64 {
     let engine = now.engine();
     let mut place = 0;
     outputs.iter().fold(0, |word, &leaf| {
@@ -89,7 +88,7 @@ pub struct Ours<C: Circuit> {
 
 impl<C: Circuit> Ours<C> {
     /// Elaborates and plans it; a first run over the stimulus has it compiled.
-    pub fn new(circuit: &C, stimulus: &Stimulus, way: Way) -> Self {
+    pub fn new(circuit: &C, stimulus: &RecordedInputs, way: Way) -> Self {
         let watched = Simulator::watching(circuit, false, |watch| watch.ports_out());
         let (mut simulator, outputs) = watched.expect("a netlist");
         if way == Way::Interpreted {
@@ -107,8 +106,8 @@ impl<C: Circuit> Ours<C> {
     }
 
     /// A run, and the checksum over the outputs of every so many ticks.
-    pub fn run(&self, stimulus: &Stimulus, every: u64) -> (Duration, u64) {
-        let mut replay = Replay::new(stimulus);
+    pub fn run(&self, stimulus: &RecordedInputs, every: u64) -> (Duration, u64) {
+        let mut replay = stimulus.playback();
         let mut sum = Checksum::new(&self.outputs, every);
         let mut simulator = self.simulator.clone();
         let begun = Instant::now();
@@ -137,7 +136,7 @@ pub enum Waves {
 /// A run with waves from a tick on: how long these take, behind their head, and the checksum.
 pub fn dump<C: Circuit>(
     circuit: &C,
-    stimulus: &Stimulus,
+    stimulus: &RecordedInputs,
     from: u64,
     waves: Waves,
     path: &Path,
@@ -174,11 +173,11 @@ pub fn dump<C: Circuit>(
 /// every tick.
 fn seen<C: Circuit>(
     circuit: &C,
-    stimulus: &Stimulus,
+    stimulus: &RecordedInputs,
     from: u64,
     observer: impl Observer<C>,
 ) -> (Instant, u64) {
-    let mut replay = Replay::new(stimulus);
+    let mut replay = stimulus.playback();
     let watched = Simulator::watching(circuit, true, |watch| watch.ports_out());
     let (mut simulator, outputs) = watched.expect("a netlist");
     let mut sum = Checksum::new(&outputs, 1);

@@ -1,13 +1,13 @@
 //! The exported Verilog, compiled by Verilator.
 
-use super::stimulus::Stimulus;
 use motion_rtl::hdl::Circuit;
 use motion_rtl::netlist::Role;
+use motion_rtl::sim::RecordedInputs;
 use motion_rtl::verilog::{SourceFile, Verilog};
 use std::cell::RefCell;
 use std::fmt::Write as _;
-use std::fs;
-use std::io::{BufRead, BufReader, Write as _};
+use std::fs::{self, File};
+use std::io::{self, BufRead, BufReader, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::time::Duration;
@@ -54,7 +54,7 @@ impl Builds {
 
     /// The directory of the program for a circuit, built where that is not done.
     fn program<C: Circuit>(&self, circuit: &C, build: Build) -> PathBuf {
-        let verilog = Verilog::of(circuit).expect("a circuit that can be printed");
+        let verilog = Verilog::new(circuit).expect("a circuit that can be printed");
         let sources = verilog.sources();
         let mut built = self.built.borrow_mut();
         let same = built
@@ -118,12 +118,12 @@ impl Verilated {
     pub fn new<C: Circuit>(
         builds: &Builds,
         circuit: &C,
-        stimulus: &Stimulus,
+        stimulus: &RecordedInputs,
         traced_from: u64,
         build: Build,
     ) -> Self {
         let directory = builds.program(circuit, build);
-        stimulus.write(&directory.join("stimulus")).expect("room");
+        write(stimulus, &directory.join("stimulus")).expect("room");
         let mut child = Command::new(directory.join("obj_dir/Vtop"))
             .arg("stimulus")
             .args([stimulus.ticks, traced_from].map(|tick| tick.to_string()))
@@ -167,6 +167,20 @@ impl Drop for Verilated {
         self.commands = None;
         let _ = self.child.wait();
     }
+}
+
+/// Writes the inputs for the Verilated model: 16 bytes a change.
+fn write(inputs: &RecordedInputs, path: &Path) -> io::Result<()> {
+    let mut out = BufWriter::new(File::create(path)?);
+    for change in &inputs.changes {
+        out.write_all(&(change.tick as u32).to_le_bytes())?;
+        out.write_all(&(change.port as u32).to_le_bytes())?;
+        out.write_all(&change.word.to_le_bytes())?;
+    }
+    // A change that comes in no tick is the end.
+    out.write_all(&u32::MAX.to_le_bytes())?;
+    out.write_all(&[0; 12])?;
+    out.into_inner()?.sync_data()
 }
 
 fn command(command: &mut Command, directory: &Path) {

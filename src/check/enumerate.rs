@@ -18,6 +18,7 @@ pub struct TooWide {
 
 /// Reason why a circuit cannot be checked.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CheckError {
     /// Too many bits to enumerate.
     #[error(transparent)]

@@ -10,6 +10,7 @@ use std::ops::ControlFlow;
 
 /// Reason why two circuits cannot be compared.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum LockstepError {
     /// Output ports that only one of the circuits has.
     #[error("ports out without partner: {}", .0.join(", "))]

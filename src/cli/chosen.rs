@@ -82,7 +82,7 @@ pub fn refused(entry: &Entry, refused: Refused) -> Failure {
             },
             allowed: "values that go together".to_owned(),
         },
-        Refused::NoProof => Failure::Argument {
+        _ => Failure::Argument {
             field: "CIRCUIT",
             problem: format!("{}: {refused}", entry.name),
             allowed: "its blocks".to_owned(),

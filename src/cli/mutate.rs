@@ -232,6 +232,7 @@ fn row(
         CampaignError::Chart { chart, failure } => {
             Failure::Check(format!("{}: {failure}", notes[chart]))
         }
+        error => Failure::Check(error.to_string()),
     })?;
     let count = |is: fn(&Fate) -> bool| suspects.iter().filter(|s| is(&s.fate)).count();
     Ok(Row {

@@ -173,7 +173,7 @@ fn verilog(
     files: &mut Files,
 ) -> Result<(StimulusFile<AtomicFile>, OutputFile<AtomicFile>), Failure> {
     // Every circuit of the crate is printed by a test, so only a new one can fail here.
-    let verilog = Verilog::of(circuit).map_err(|error| Failure::Check(error.to_string()))?;
+    let verilog = Verilog::new(circuit).map_err(|error| Failure::Check(error.to_string()))?;
     files.export(Export::new(&verilog, Some(clock), format!("run {stem}")))?;
     let name = circuit.outlined().0;
     let stimulus = files.create_as(&format!("{name}.stimulus"))?;

@@ -204,6 +204,7 @@ impl fmt::Debug for Instance {
 
 /// Reason why a circuit cannot be run.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum EngineError {
     /// The circuit has mistakes.
     #[error(transparent)]

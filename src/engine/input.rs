@@ -2,6 +2,7 @@
 
 /// Reason why an input port cannot be set.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum InputError {
     /// There is no such port.
     #[error("port in {port} does not exist; the circuit has {ports}, counted from 0")]

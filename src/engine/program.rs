@@ -21,6 +21,7 @@ pub struct Program {
 
 /// Selection of the leaves that can be read in every tick without extra cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Watch<'w> {
     /// All leaves.
     All,

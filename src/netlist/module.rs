@@ -232,6 +232,7 @@ pub struct Setting {
 
 /// Value of a setting.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Value {
     /// Value of a parameter.
     Number(u64),

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 /// Display format of a signal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Format {
     /// Decimal number.
     Decimal,

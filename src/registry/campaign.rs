@@ -95,6 +95,7 @@ pub enum Found {
 
 /// Reasons why a search for faults cannot run.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CampaignError {
     /// The circuit, or one around it, cannot be elaborated.
     #[error(transparent)]

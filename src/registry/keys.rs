@@ -59,6 +59,7 @@ pub struct WrongPair {
 
 /// Reasons why a circuit cannot be made.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Refused {
     /// Keys and values that it does not take, all of them.
     #[error("{}", lines(.0))]

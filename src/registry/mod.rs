@@ -25,6 +25,7 @@ mod model;
 #[cfg(test)]
 mod ports_out;
 mod reader;
+mod scaled;
 mod sweep;
 
 pub use crate::settings::{Pair, PairError};

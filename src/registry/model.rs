@@ -73,7 +73,7 @@ impl dyn AnyModel + '_ {
     /// # Errors
     /// No netlist can be made of it.
     pub fn verilog(&self) -> Result<Verilog, EngineError> {
-        Verilog::of(&self.model()?)
+        Verilog::new(&self.model()?)
     }
 
     /// Returns the parts of the circuit and their connections.

@@ -8,6 +8,7 @@ mod loaded;
 mod program;
 pub mod pulse_interpolator;
 mod run;
+pub mod shipped;
 #[cfg(test)]
 mod turntable;
 

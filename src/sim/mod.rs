@@ -8,6 +8,7 @@ mod cost;
 mod elaborated;
 mod observe;
 mod ports;
+mod recorded;
 pub(crate) mod sample;
 mod simulator;
 
@@ -15,6 +16,7 @@ pub use beside::{Beside, Without};
 pub use cost::Cost;
 pub use elaborated::{Described, Elaborated};
 pub use observe::{Each, Observer, RunError, StopWhen};
+pub use recorded::{InputChange, InputRecorder, Playback, RecordedInputs};
 pub(crate) use sample::View as LeafView;
 pub use sample::{Lazy, Sample, State};
 pub use simulator::{Simulator, Watcher};

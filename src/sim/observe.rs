@@ -8,6 +8,7 @@ use std::ops::ControlFlow;
 
 /// Reason why a run ended early.
 #[derive(thiserror::Error)]
+#[non_exhaustive]
 pub enum RunError {
     /// The circuit cannot be run.
     #[error(transparent)]

@@ -1,5 +1,4 @@
 use std::fmt;
-use vcd::TimescaleUnit;
 
 /// Femtoseconds in a second.
 const FS: u64 = 1_000_000_000_000_000;
@@ -104,17 +103,17 @@ impl Clock {
         self.unit.ilog10() as i8 - 15
     }
 
-    /// Returns the time unit in VCD terms: a factor of 1, 10 or 100, and its unit.
-    pub fn timescale(self) -> (u32, TimescaleUnit) {
+    /// Returns the time unit in VCD terms: a factor of 1, 10 or 100, and its unit, `s` to `fs`.
+    pub fn timescale(self) -> (u32, &'static str) {
         let units = [
-            (1, TimescaleUnit::FS),
-            (1_000, TimescaleUnit::PS),
-            (1_000_000, TimescaleUnit::NS),
-            (1_000_000_000, TimescaleUnit::US),
-            (1_000_000_000_000, TimescaleUnit::MS),
-            (FS, TimescaleUnit::S),
+            (1, "fs"),
+            (1_000, "ps"),
+            (1_000_000, "ns"),
+            (1_000_000_000, "us"),
+            (1_000_000_000_000, "ms"),
+            (FS, "s"),
         ];
-        let mut best = (1, TimescaleUnit::FS);
+        let mut best = (1, "fs");
         for (size, name) in units {
             if self.unit >= size {
                 best = ((self.unit / size) as u32, name);

@@ -28,6 +28,7 @@ impl Default for Options {
 
 /// Error in laying out signals as a tree of scopes.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum LayoutError {
     /// A name is duplicate in a scope.
     #[error("{0} is declared twice")]

@@ -18,6 +18,7 @@ pub struct Recorder {
 
 /// Error of a query to a [`Recorder`].
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RecordError {
     /// The signal does not exist or was not chosen.
     #[error("no signal {path} was recorded{}", did_you_mean(near))]

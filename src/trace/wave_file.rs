@@ -11,6 +11,7 @@ use std::io;
 
 /// Waveform format.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum WaveFormat {
     /// Text that every waveform viewer reads; see [`Vcd`](super::Vcd).
     #[default]

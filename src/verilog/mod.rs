@@ -8,7 +8,7 @@
 //! ```
 //! use motion_rtl::{circuits::blocks::EnableCounter, verilog::Verilog};
 //!
-//! let sources = Verilog::of(&EnableCounter { width: 24 })?.sources();
+//! let sources = Verilog::new(&EnableCounter { width: 24 })?.sources();
 //! assert_eq!(sources[0].name, "enable_counter.v");
 //! assert!(sources[0].text.contains("wire [23:0] next = count + 24'd1;"));
 //! # Ok::<(), motion_rtl::engine::EngineError>(())
@@ -53,11 +53,11 @@ pub struct SourceFile {
 }
 
 impl Verilog {
-    /// The modules of a circuit and of those inside it.
+    /// Prepares the modules of a circuit and of those inside it for printing.
     ///
     /// # Errors
     /// All errors of the circuit.
-    pub fn of(circuit: &impl Described) -> Result<Self, EngineError> {
+    pub fn new(circuit: &impl Described) -> Result<Self, EngineError> {
         let design = circuit.described()?.design().clone();
         Ok(Verilog { design })
     }

@@ -1,6 +1,5 @@
 //! Every circuit of the catalogue on every backend, under random inputs with resets.
 
-use super::scaled;
 use motion_rtl::check::Stimulus;
 use motion_rtl::engine::{Engine, Watch};
 use motion_rtl::registry::CATALOGUE;
@@ -111,7 +110,7 @@ fn every_circuit_at_its_own_widths() {
 fn every_circuit_at_narrow_widths() {
     for entry in CATALOGUE {
         for width in [2, 3, 4, 8] {
-            let model = scaled::model(entry, width).map(|circuit| circuit.model());
+            let model = entry.scaled(width).map(|circuit| circuit.model());
             if let Some(Ok(model)) = model {
                 same(&format!("{}[{width}]", entry.name), &model);
             }

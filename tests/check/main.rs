@@ -11,8 +11,6 @@ mod monitor;
 mod proofs;
 mod reach;
 mod report;
-#[path = "../scaled/mod.rs"]
-mod scaled;
 mod search;
 mod sweep;
 mod widths;

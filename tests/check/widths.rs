@@ -1,6 +1,5 @@
 //! The catalogue with every key changed, alone and together: what cannot be made is refused in words.
 
-use super::scaled;
 use motion_rtl::registry::{AnyModel, Base, CATALOGUE, Entry, Pair, Refused};
 use rayon::prelude::*;
 
@@ -106,7 +105,7 @@ fn every_circuit_is_elaborated_at_every_width() {
     let entries = CATALOGUE.par_iter().filter(|entry| entry.name != "machine");
     none(entries.flat_map_iter(|entry| {
         (0..=64).filter_map(move |bits| {
-            let ways = scaled::pairs(entry, bits).into_iter();
+            let ways = entry.scaled_pairs(bits).into_iter();
             let ends = ways.map(|pairs| made(entry, Base::Small, &pairs));
             match ends.collect::<Result<Vec<bool>, String>>() {
                 Ok(ends) if (4..=12).contains(&bits) && !ends.contains(&true) => {

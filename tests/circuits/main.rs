@@ -10,8 +10,6 @@ mod pulse_arcs;
 mod pulse_counts;
 mod pulse_group;
 mod pulse_reference;
-#[path = "../scaled/mod.rs"]
-mod scaled;
 mod servo_loops;
 mod step_timing;
 mod stimulus;

@@ -3,7 +3,6 @@
 
 mod still;
 
-use super::scaled;
 use motion_rtl::check::{Drive, Driven, drive};
 use motion_rtl::circuits::arc_generator::ArcGenerator;
 use motion_rtl::circuits::linear_interpolator::LinearInterpolator;
@@ -170,7 +169,7 @@ fn every_circuit_is_made_at_its_widths() {
         if name == "machine" {
             continue;
         }
-        let made = |bits| scaled::model(entry, bits);
+        let made = |bits| entry.scaled(bits);
         assert!(
             made(8).is_some() && (made(3).is_some() || made(4).is_some()),
             "{name}"
@@ -203,7 +202,7 @@ fn every_bit_that_can_move_moves() {
         let full = ("full", entry.full(), FAR);
         // One without a width is the same at all.
         let narrow = (!entry.widths(Base::Full, &[]).is_empty() && entry.name != "machine")
-            .then(|| scaled::model(entry, 8).expect(entry.name));
+            .then(|| entry.scaled(8).expect(entry.name));
         let narrow = narrow.map(|model| ("8", model, NEVER));
         for (size, model, allowed) in [full].into_iter().chain(narrow) {
             let driven = driven(&*model, &run(3, 100_000, true));

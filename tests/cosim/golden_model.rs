@@ -8,8 +8,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
 
-#[path = "../../rtl_notes/golden_model/own_stimulus.rs"]
-mod own_stimulus;
+/// The program of the note.
+mod own_stimulus {
+    include!("../../rtl_notes/golden_model/own_stimulus.rs");
+}
 
 const NOTE: &str = "rtl_notes/golden_model.md";
 const FILES: &str = "rtl_notes/golden_model";

@@ -2,8 +2,6 @@
 
 mod golden_model;
 mod plotter;
-#[path = "../scaled/mod.rs"]
-mod scaled;
 mod scenario;
 mod simulators;
 mod testbench;

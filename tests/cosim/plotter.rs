@@ -43,7 +43,7 @@ fn hold<const N: usize>(
 ) {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();
-    let verilog = Verilog::of(circuit).unwrap();
+    let verilog = Verilog::new(circuit).unwrap();
     let modules = write(path, &verilog);
     let name = circuit.name();
     let create = |extension: &str| File::create(path.join(format!("{name}.{extension}"))).unwrap();

@@ -1,6 +1,5 @@
 //! Every circuit of the catalogue, driven with seeded random inputs and resets.
 
-use super::scaled;
 use super::tools::{Simulator, complete, run, write};
 use motion_rtl::check::Drive;
 use motion_rtl::registry::{AnyModel, Base, CATALOGUE, Entry};
@@ -55,7 +54,7 @@ pub fn hold(circuit: &dyn AnyModel, simulator: Simulator, seed: u64, ticks: u64)
 /// The circuit of an entry at several widths, with the ticks it is held for: an odd one where it can
 /// be made so, a middle one, its own.
 fn widths(entry: &Entry) -> Vec<(Box<dyn AnyModel>, u64)> {
-    let made = |width| scaled::model(entry, width);
+    let made = |width| entry.scaled(width);
     let least = made(3).or_else(|| made(4)).map(|made| (made, FEWER_TICKS));
     let middle = made(8).map(|made| (made, TICKS));
     let own = entry.full();

@@ -69,7 +69,7 @@ fn hold(axes: usize, correction: Correction, rounding: Rounding, simulator: Simu
     let circuit = TrajectoryController::new(WIDTHS, axes, correction, rounding);
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();
-    let modules = write(path, &Verilog::of(&circuit).unwrap());
+    let modules = write(path, &Verilog::new(&circuit).unwrap());
     let name = "trajectory_controller";
     let create = |extension| File::create(path.join(format!("{name}.{extension}"))).unwrap();
     let (clock, options) = (Clock::default(), Options::default());

@@ -38,7 +38,7 @@ fn hold(settings: &Settings, simulator: Simulator) -> Played {
     let circuit = positioner(settings);
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();
-    let verilog = Verilog::of(&circuit).unwrap();
+    let verilog = Verilog::new(&circuit).unwrap();
     let modules = write(path, &verilog);
     let name = circuit.name();
     let create = |extension: &str| File::create(path.join(format!("{name}.{extension}"))).unwrap();

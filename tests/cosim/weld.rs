@@ -53,7 +53,7 @@ fn hold(rounding: Rounding, simulator: Simulator) -> Played {
     });
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();
-    let modules = write(path, &Verilog::of(&circuit).unwrap());
+    let modules = write(path, &Verilog::new(&circuit).unwrap());
     let create = |extension| File::create(path.join(format!("arc_generator.{extension}"))).unwrap();
     let (clock, options) = (Clock::default(), Options::default());
     let mut vcd = Vcd::new(create("vcd"), &circuit, clock, &options).unwrap();

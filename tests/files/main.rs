@@ -3,7 +3,5 @@
 mod compare;
 mod fuzz;
 mod input;
-#[path = "../scaled/mod.rs"]
-mod scaled;
 mod verilog;
 mod waves;

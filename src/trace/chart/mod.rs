@@ -80,6 +80,7 @@ pub struct ChartError {
 
 /// Problem with a chart.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Problem {
     /// The fence does not name a circuit.
     #[error("a chart begins with ```chart CIRCUIT or ```chart CIRCUIT[KEY=VALUE, ...]")]

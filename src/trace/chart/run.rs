@@ -11,6 +11,7 @@ use std::fmt::{self, Write};
 
 /// Reason why a chart fails.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ChartFailure {
     /// The chart does not fit the circuit.
     #[error(transparent)]

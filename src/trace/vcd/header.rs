@@ -28,7 +28,7 @@ pub fn header(
         out.comment(&format!("{PORTS_OUT} {}", paths.join(" ")))?;
     }
     let (factor, unit) = clock.timescale();
-    out.timescale(factor, unit)?;
+    out.timescale(factor, unit.parse().map_err(io::Error::other)?)?;
     out.add_module(&layout.top.name)?;
     out.var_def(VarType::Wire, 1, CLK_CODE, CLK, None)?;
     scope(&mut out, &layout.top, layout, variables)?;

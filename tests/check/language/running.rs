@@ -3,7 +3,7 @@
 use super::*;
 use motion_rtl::check::{Law, Lockstep, Pair, sweep};
 use motion_rtl::hdl::At;
-use motion_rtl::sim::{Beside, Elaborated, Watcher};
+use motion_rtl::sim::{Beside, Each, Elaborated, InputRecorder, Sample, State, Watcher};
 
 #[test]
 fn a_simulator_is_set_stepped_and_asked() {
@@ -164,4 +164,40 @@ fn a_law_is_swept() {
         let message = "sum is 45, not 46 with by = 21 (case 21)";
         assert_eq!((found.message.as_str(), found.tick), (message, 1));
     }
+}
+
+#[test]
+fn recorded_inputs_are_played_again() {
+    let circuit = Counter { width: 4, other: 4 };
+    let by = |tick: u64| [0, 3, 3, 5, 0, 0, 1, 1][tick as usize % 8];
+    let mut recorder = InputRecorder::new(&circuit, 8);
+    let mut sums = Vec::new();
+    let each = Each(|now: &Sample<'_, Counter>| sums.push(now.q.sum));
+    let mut simulator = Simulator::new(&circuit).unwrap();
+    let drive = |tick, _: &State<'_, Counter>| In { by: by(tick) };
+    simulator.run(100, drive, (&mut recorder, each)).unwrap();
+    let inputs = recorder.finish();
+    assert_eq!((inputs.ticks, simulator.tick()), (8, 8));
+    let changes = inputs.changes.iter();
+    let changes: Vec<_> = changes
+        .map(|change| (change.tick, change.port, change.word))
+        .collect();
+    assert_eq!(changes, [(1, 0, 3), (3, 0, 5), (4, 0, 0), (6, 0, 1)]);
+
+    let mut playback = inputs.playback();
+    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut held = Vec::new();
+    for sum in sums {
+        held.push(playback.held(&mut simulator).unwrap());
+        assert_eq!(simulator.see(|s| s.q.sum), sum);
+        simulator.step();
+    }
+    assert_eq!(held, [1, 2, 1, 1, 2, 1, u64::MAX, u64::MAX]);
+    assert_eq!(
+        inputs
+            .playback()
+            .tick(&mut Simulator::new(&circuit).unwrap())
+            .unwrap(),
+        1
+    );
 }

@@ -1,12 +1,18 @@
 //! The jobs of all circuits: the ports out of every tick, stepped one by one, run, and gone over.
 
-use super::jobs::{self, Clock, Job};
-use super::ours::word;
 use super::registers;
-use super::stimulus::Replay;
 use motion_rtl::hdl::Circuit;
+use motion_rtl::scenario::shipped::{self, Clock, Recorded, ShippedError};
 use motion_rtl::sim::{Observer, RunError, Sample, Simulator};
 use std::ops::ControlFlow;
+
+/// Returns one word in which every output has a part.
+fn word<C: Circuit>(outputs: &[usize], now: &Sample<'_, C>) -> u64 {
+    let engine = now.engine();
+    outputs.iter().fold(0u64, |word, &leaf| {
+        word.rotate_left(7) ^ engine.leaf(leaf).expect("it is a leaf")
+    })
+}
 
 /// A word of the ports out for every tick; where a tick is not seen they are held.
 struct Words<'o> {
@@ -37,9 +43,9 @@ impl<C: Circuit> Observer<C> for Words<'_> {
 }
 
 /// Runs a job tick by tick on the interpreter, where all nets are watched, and in all other ways.
-fn same<C: Circuit>(job: Job<C>) {
-    let Job { circuit, stimulus } = job;
-    let ticks = stimulus.ticks;
+fn same<C: Circuit>(job: Result<Recorded<C>, ShippedError>) {
+    let Recorded { circuit, inputs } = job.expect("it ships");
+    let ticks = inputs.ticks;
     let watching =
         |all| Simulator::watching(&circuit, all, |watch| watch.ports_out()).expect("a netlist");
     let ((whole, outputs), (ports, _)) = (watching(true), watching(false));
@@ -49,7 +55,7 @@ fn same<C: Circuit>(job: Job<C>) {
         simulator
     };
 
-    let mut replay = Replay::new(&stimulus);
+    let mut replay = inputs.playback();
     let mut step = interpreted(&whole);
     let mut words = Vec::new();
     for _ in 0..ticks {
@@ -70,7 +76,7 @@ fn same<C: Circuit>(job: Job<C>) {
     ];
     for (how, mut simulator, way) in ways {
         let mut seen = Words::new(&outputs);
-        let mut replay = Replay::new(&stimulus);
+        let mut replay = inputs.playback();
         let run = match way {
             Way::Run => simulator.run_changes(ticks, |at| replay.tick(at), &mut seen),
             Way::Changes => simulator.run_changes(ticks, |at| replay.held(at), &mut seen),
@@ -94,44 +100,44 @@ enum Way {
 }
 
 /// At the clock of the scenario and at a fast one, in which most ticks are idle.
-fn both<C: Circuit>(job: impl Fn(u64, Clock) -> Job<C>) {
+fn both<C: Circuit>(job: impl Fn(u64, Clock) -> Result<Recorded<C>, ShippedError>) {
     same(job(100_000, Clock::Shipped));
     same(job(400_000, Clock::Fast));
 }
 
 #[test]
 fn a_group_of_two_axes() {
-    both(jobs::bracket);
+    both(shipped::bracket);
 }
 
 #[test]
 fn a_group_of_eight_axes() {
-    same(jobs::eight_axes(100_000));
+    same(shipped::eight_axes(100_000));
 }
 
 #[test]
 fn the_linear_interpolator() {
-    both(jobs::plotting);
+    both(shipped::plotting);
 }
 
 #[test]
 fn the_lead_angle_compensator() {
-    both(jobs::turntable);
+    both(shipped::turntable);
 }
 
 #[test]
 fn the_arc_generator() {
-    both(jobs::weld);
+    both(shipped::weld);
 }
 
 #[test]
 #[ignore = "takes long"]
 fn the_trajectory_controller() {
-    both(jobs::pocket);
+    both(shipped::pocket);
 }
 
 #[test]
 #[ignore = "takes long"]
 fn the_machine() {
-    both(jobs::machine);
+    both(shipped::machine);
 }

@@ -1,6 +1,5 @@
 //! Readers under what is nearly right: the inputs of `fuzz/corpus` with random changes.
 
-#[path = "readers.rs"]
 mod readers;
 
 use proptest::collection::vec;

@@ -67,7 +67,7 @@ impl Circuit for Around {
 
 /// Returns the mistakes of a circuit, without their source lines.
 fn refused(circuit: &impl Circuit) -> Vec<String> {
-    match Verilog::of(circuit) {
+    match Verilog::new(circuit) {
         Err(EngineError::Circuit(wrong)) => {
             let mistakes = wrong.0.into_iter();
             mistakes
@@ -89,7 +89,7 @@ fn what_is_no_port_cannot_be_read() {
 
 #[test]
 fn the_surrounding_circuit_says_what_registers_hold_at_power_on() {
-    let sources = Verilog::of(&Around(Way::Ports)).unwrap().sources();
+    let sources = Verilog::new(&Around(Way::Ports)).unwrap().sources();
     let text = &sources[0].text;
     assert_eq!(sources[0].name, "count_up.v");
     assert!(text.contains("reg  [3:0] count_reg = 4'd11;"), "{text}");

@@ -7,7 +7,6 @@ mod netlists;
 mod snapshots;
 mod text;
 
-use super::scaled;
 use motion_rtl::hdl::Declaration;
 use motion_rtl::registry::{AnyModel, CATALOGUE, Entry};
 
@@ -19,7 +18,7 @@ fn circuits() -> impl Iterator<Item = Box<dyn AnyModel>> {
 /// A circuit at narrow widths, as far as it can be made at them, and at its own.
 fn models(entry: &'static Entry) -> impl Iterator<Item = Box<dyn AnyModel>> {
     let made = [2, 3, 4, 8].into_iter();
-    let made = made.filter_map(|width| scaled::model(entry, width));
+    let made = made.filter_map(|width| entry.scaled(width));
     made.chain([entry.full()])
 }
 

@@ -64,7 +64,7 @@ impl Circuit for Distance {
 
 /// The sources of a circuit, one below the other.
 fn text(circuit: &impl Circuit) -> String {
-    let sources = Verilog::of(circuit).unwrap().sources();
+    let sources = Verilog::new(circuit).unwrap().sources();
     let texts: Vec<String> = sources.into_iter().map(|source| source.text).collect();
     texts.join("\n")
 }
@@ -96,7 +96,7 @@ fn parts_of_words_of_before_in_an_assertion() {
 
 #[test]
 fn a_testbench() {
-    let bench = Verilog::of(&COUNTER)
+    let bench = Verilog::new(&COUNTER)
         .unwrap()
         .testbench(Clock::default())
         .unwrap();

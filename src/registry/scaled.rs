@@ -1,0 +1,70 @@
+//! Circuits of the catalogue with all their widths changed at once.
+
+use super::{AnyModel, Base, Entry, Pair};
+
+/// Returns the stages of a history whose positions have `bits` bits.
+fn stages_at(bits: u64) -> u64 {
+    match bits {
+        0..=2 => 2,
+        3 | 4 => 3,
+        _ => 15,
+    }
+}
+
+/// Names of address widths, which would make memories grow.
+const ADDRESSES: &[&str] = &["address", "record", "segment", "step", "word"];
+
+/// Returns the width that most words have, the largest of equally many.
+fn usual(widths: &[(String, u64)]) -> u64 {
+    let count = |of: u64| widths.iter().filter(|(_, width)| *width == of).count();
+    let most = widths
+        .iter()
+        .map(|(_, width)| (count(*width), *width))
+        .max();
+    most.map_or(1, |(_, width)| width.max(1))
+}
+
+impl Entry {
+    /// Returns three ways to make the small circuit about `bits` wide: all widths changed by the same
+    /// difference, in proportion, or by interpolation between the small and the full circuit.
+    pub fn scaled_pairs(&self, bits: u64) -> Vec<Vec<Pair>> {
+        let bits = bits.min(64);
+        let widths = |base| {
+            let mut widths = self.widths(base, &[]);
+            widths.retain(|(key, _)| {
+                !ADDRESSES.contains(&key.rsplit('.').next().unwrap_or_default())
+            });
+            widths
+        };
+        let (small, full) = (widths(Base::Small), widths(Base::Full));
+        let own = usual(&small);
+        let widest = usual(&full).max(own + 1);
+        let all = |width: &dyn Fn(usize, u64) -> u64| -> Vec<Pair> {
+            let widths = small.iter().enumerate();
+            let widths = widths.map(|(at, (key, of))| Pair::new(key.clone(), width(at, *of)));
+            let sizes = self.sizes(Base::Small, &[]).into_iter();
+            let stages = sizes.filter(|(key, _)| key.ends_with("stages"));
+            let stages = stages.map(|(key, of)| {
+                let times = if of == 30 { 10 } else { 1 };
+                Pair::new(key, times * stages_at(bits))
+            });
+            widths.chain(stages).collect()
+        };
+        let between = |at: usize, of: u64| {
+            let to = full.get(at).map_or(of, |(_, width)| *width);
+            let (of, to, way) = (of as i64, to as i64, bits as i64 - own as i64);
+            (of + (to - of) * way / (widest - own) as i64).max(0) as u64
+        };
+        vec![
+            all(&|_, of| (of + bits).saturating_sub(own)),
+            all(&|_, of| (of * bits).div_ceil(own)),
+            all(&between),
+        ]
+    }
+
+    /// Returns the small circuit made `bits` wide, in the first of these ways that gives a circuit.
+    pub fn scaled(&self, bits: u64) -> Option<Box<dyn AnyModel>> {
+        let mut ways = self.scaled_pairs(bits).into_iter();
+        ways.find_map(|pairs| self.made(Base::Small, &pairs).ok())
+    }
+}
