@@ -258,6 +258,3 @@ impl Signals<'_> {
         })
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -11,6 +11,7 @@ mod names;
 mod reader;
 mod replay;
 mod reset;
+mod series;
 mod text;
 mod watched;
 mod zoo;

@@ -1,9 +1,12 @@
 //! Series of a counter.
 
-use super::*;
-use crate::circuits::blocks::EnableCounter;
-use crate::sim::Simulator;
-use std::io::Cursor;
+use motion_rtl::circuits::blocks::EnableCounter;
+use motion_rtl::sim::Simulator;
+use motion_rtl::trace::{
+    Position, Rows, SeriesAxis, SeriesFile, SeriesFormat, SeriesLayout, SeriesPlan,
+};
+use std::io::{self, Cursor};
+use std::ops::Range;
 
 fn signal(path: &str) -> Position {
     Position::Signal {
