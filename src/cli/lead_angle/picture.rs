@@ -2,7 +2,7 @@
 //! with either sign.
 
 use super::Job;
-use super::summary::{code_travel, error_name, of};
+use super::summary::{code_travel, error_name, run_of};
 use super::systems::{LEARNING, LITERAL, System};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::jobs::lead_angle::settings::LeadBy;
@@ -23,7 +23,7 @@ pub fn draw(job: &Job, played: &[(System, Played)]) -> String {
     let settings = &job.settings;
     let title = format!("{}: lead-angle compensator", job.stem);
     let mut picture = Picture::new(title).panel(all_errors(job, played));
-    if let Some(learning) = of(played, LEARNING) {
+    if let Some(learning) = run_of(played, LEARNING) {
         picture = picture.panel(errors_in_codes(job, learning));
     }
     // Without a comparison, only the scenario's own lead times are drawn.
@@ -32,7 +32,7 @@ pub fn draw(job: &Job, played: &[(System, Played)]) -> String {
         _ => LEARNING,
     };
     for name in [alone, LITERAL].into_iter().take(played.len()) {
-        if let Some(run) = of(played, name) {
+        if let Some(run) = run_of(played, name) {
             let title = format!("lead time, {name}");
             let lead_ms = |one: &Positioning| settings.lead_ms(one.code);
             let panel = Panel::new(title, AXIS, "ms");

@@ -170,8 +170,8 @@ pub fn error_name(action: Action) -> &'static str {
     }
 }
 
-/// The run of that name.
-pub fn of<'a>(played: &'a [(System, Played)], name: &str) -> Option<&'a Played> {
+/// Returns the run of the system of this name.
+pub fn run_of<'a>(played: &'a [(System, Played)], name: &str) -> Option<&'a Played> {
     let found = played.iter().find(|(system, _)| system.name == name);
     found.map(|(_, played)| played)
 }
@@ -187,7 +187,7 @@ impl Summary {
             false => LEARNING,
         };
         let own_name = own.map(|(system, _)| system.name);
-        let lead_times_of = match of(played, learner) {
+        let lead_times_of = match run_of(played, learner) {
             Some(_) => Some(learner),
             None => own_name.filter(|_| settings.lead == LeadBy::Time),
         };
@@ -202,7 +202,7 @@ impl Summary {
             phases: Vec::new(),
             positionings: Vec::new(),
         };
-        let shown = lead_times_of.and_then(|name| of(played, name));
+        let shown = lead_times_of.and_then(|name| run_of(played, name));
         if let Some(run) = shown.or(own.map(|(_, run)| run)) {
             let shown = Shown {
                 settings,
@@ -241,19 +241,19 @@ fn loaded(settings: &Settings, positioning: usize) -> bool {
     after.is_some_and(|after| positioning >= after)
 }
 
-/// Something of a positioning, of every system.
-fn of_all<T: Default>(
+/// Returns a value of a positioning on each system.
+fn on_each_system<T: Default>(
     played: &[(System, Played)],
     positioning: usize,
-    what: impl Fn(&Positioning) -> T,
+    of: impl Fn(&Positioning) -> T,
 ) -> Vec<T> {
-    let one = |run: &Played| {
+    let value = |run: &Played| {
         run.positionings
             .get(positioning)
-            .map(&what)
+            .map(&of)
             .unwrap_or_default()
     };
-    played.iter().map(|(_, run)| one(run)).collect()
+    played.iter().map(|(_, run)| value(run)).collect()
 }
 
 /// All runs, and the one whose positionings and lead times are shown.
@@ -274,10 +274,14 @@ impl Shown<'_> {
                 positioning: number,
                 step: one.step,
                 loaded: loaded(settings, number),
-                error_counts: of_all(played, number, |one| one.error),
-                position_error_counts: of_all(played, number, |one| one.position_error_counts),
-                timed_out: of_all(played, number, |one| one.timed_out),
-                end_speed_counts_per_s: of_all(played, number, |one| one.end_speed_counts_per_s),
+                error_counts: on_each_system(played, number, |one| one.error),
+                position_error_counts: on_each_system(played, number, |one| {
+                    one.position_error_counts
+                }),
+                timed_out: on_each_system(played, number, |one| one.timed_out),
+                end_speed_counts_per_s: on_each_system(played, number, |one| {
+                    one.end_speed_counts_per_s
+                }),
                 lead: self.lead(one),
             })
             .collect()
@@ -318,7 +322,7 @@ impl Shown<'_> {
         let last = *numbers.last()?;
         let after = |run| settled_after(settings, run, &numbers);
         // One of them is missing without a comparison.
-        let functions = [LEARNING, SECOND_ORDER, EXACT].map(|name| of(played, name));
+        let functions = [LEARNING, SECOND_ORDER, EXACT].map(|name| run_of(played, name));
         let by_function = match functions {
             [Some(first), Some(second), Some(exact)] => Some(ByFunction {
                 first_order: after(first),
@@ -332,8 +336,8 @@ impl Shown<'_> {
             target: settings.steps[step].target,
             speed_counts_per_s: settings.steps[step].speed_counts_per_s,
             positionings: numbers.len(),
-            last_error_counts: of_all(played, last, |one| one.error),
-            last_timed_out: of_all(played, last, |one| one.timed_out),
+            last_error_counts: on_each_system(played, last, |one| one.error),
+            last_timed_out: on_each_system(played, last, |one| one.timed_out),
             lead: self.lead(&all[last]).map(|last| StepLead {
                 last,
                 settled_after: after(self.run),

@@ -1,25 +1,33 @@
 //! The summary for people.
 
-use super::summary::{Lead, Phase, StepSummary, Summary, SystemSummary, error_name};
+use super::summary::{Lead, Phase, StepSummary, Summary, error_name};
+use crate::cli::columns::Table;
 use crate::cli::report::{Outcome, Report};
 use motion_rtl::jobs::lead_angle::settings::{Action, Detector, Function, LeadBy, LeadForm};
 use std::fmt::Write;
 
-/// Characters of a column of stop errors at least.
+/// Least width of a column of stop errors.
 const SHORTEST: usize = 8;
 
-/// A name of the settings as scenarios have it.
+/// Returns the name of a setting's value in scenarios.
 fn name(value: impl serde::Serialize) -> String {
     let json = serde_json::to_value(value).unwrap_or_default();
     json.as_str().unwrap_or_default().to_owned()
 }
 
-/// A lead time and its code below their heads.
-fn columns(lead: &Lead) -> String {
-    format!(
-        "  {:>5.1} ms  {:>8.1}",
-        lead.lead_ms, lead.code_travel_counts
-    )
+/// Appends columns of a lead time and the travel of one code.
+fn lead_columns<R>(table: Table<R>, of: impl Fn(&R) -> Option<Lead>) -> Table<R> {
+    let cell = |show: fn(Lead) -> String| {
+        let of = &of;
+        move |row: &R| of(row).map_or(String::new(), show)
+    };
+    table
+        .col("lead", 8, cell(|lead| format!("{:.1} ms", lead.lead_ms)))
+        .col(
+            "one code",
+            0,
+            cell(|lead| format!("{:.1}", lead.code_travel_counts)),
+        )
 }
 
 impl Report for Summary {
@@ -71,26 +79,18 @@ impl Report for Summary {
                 (LeadBy::Time, false) => "not learning".to_owned(),
             }
         )?;
-        writeln!(
-            text,
-            "{:<20}   largest       rms  missed  timed out",
-            match self.settings.action {
-                Action::Stop => "stop error in counts",
-                Action::Operate => "effect error, counts",
-            }
-        )?;
-        for system in &self.systems {
-            writeln!(
-                text,
-                "{:<20}  {:>8}  {:>8.1}  {:>6}  {:>9}{}",
-                system.name,
-                system.error_max_counts,
-                system.error_rms_counts,
-                system.missed,
-                system.timed_out,
-                if system.own { "  in the waves" } else { "" },
-            )?;
-        }
+        let head = match self.settings.action {
+            Action::Stop => "stop error in counts",
+            Action::Operate => "effect error, counts",
+        };
+        Table::of(&self.systems)
+            .left(head, 20, |system| system.name)
+            .col("largest", 8, |system| system.error_max_counts)
+            .col("rms", 8, |system| format!("{:.1}", system.error_rms_counts))
+            .col("missed", 0, |system| system.missed)
+            .col("timed out", 0, |system| system.timed_out)
+            .left("", 0, |system| if system.own { "in the waves" } else { "" })
+            .write(text)?;
         text.push('\n');
         for phase in &self.phases {
             self.phase(text, phase)?;
@@ -113,21 +113,16 @@ impl Report for Summary {
 }
 
 impl Summary {
-    /// The names of the systems as heads of columns.
-    fn heads(&self) -> String {
-        let names = self.systems.iter().map(|system| system.name);
-        names.map(|name| format!("  {name:>SHORTEST$}")).collect()
-    }
-
-    /// Stop errors below their heads, with a mark where the body had not stopped.
-    fn errors(&self, errors: &[i64], timed_out: &[bool]) -> String {
-        let columns = self.systems.iter().zip(errors).zip(timed_out);
-        let cell = |((system, error), timed_out): ((&SystemSummary, &i64), &bool)| {
-            let width = system.name.len().max(SHORTEST);
-            let mark = if *timed_out { "*" } else { "" };
-            format!("  {:>width$}", format!("{error}{mark}"))
-        };
-        columns.map(cell).collect()
+    /// Appends a column of stop errors for each system, with a mark where the body had not stopped.
+    fn errors<R>(&self, table: Table<R>, of: impl Fn(&R) -> (&[i64], &[bool])) -> Table<R> {
+        let systems = self.systems.iter().enumerate();
+        systems.fold(table, |table, (place, system)| {
+            table.col(system.name, SHORTEST, |row| {
+                let (errors, timed_out) = of(row);
+                let mark = if timed_out[place] { "*" } else { "" };
+                format!("{}{mark}", errors[place])
+            })
+        })
     }
 
     fn phase(&self, text: &mut String, phase: &Phase) -> std::fmt::Result {
@@ -147,71 +142,43 @@ impl Summary {
                 None => String::new(),
             }
         )?;
-        let compared = |step: &StepSummary| {
-            let lead = step.lead.as_ref();
-            lead.is_some_and(|lead| lead.settled_by_function.is_some())
+        let after = |settled: Option<usize>| match settled {
+            Some(after) => after.to_string(),
+            None => "never".to_owned(),
         };
-        writeln!(
-            text,
-            "step    target   speed{}{}{}",
-            self.heads(),
-            match self.lead_times_of {
-                Some(_) => "      lead  one code  settled after",
-                None => "",
-            },
-            match phase.steps.iter().any(compared) {
-                true => "  1st, 2nd, exact",
-                false => "",
-            }
-        )?;
-        for step in &phase.steps {
-            write!(
-                text,
-                "{:>4}  {:>8}  {:>6}{}",
-                step.step,
-                step.target,
-                step.speed_counts_per_s,
-                self.errors(&step.last_error_counts, &step.last_timed_out)
-            )?;
-            let after = |settled: Option<usize>| match settled {
-                Some(after) => after.to_string(),
-                None => "never".to_owned(),
-            };
-            if let Some(lead) = &step.lead {
-                let settled = after(lead.settled_after);
-                write!(text, "{}  {settled:>13}", columns(&lead.last))?;
-                if let Some(by) = lead.settled_by_function {
-                    let each = [by.first_order, by.second_order, by.exact].map(after);
-                    write!(text, "  {:>15}", each.join(", "))?;
-                }
-            }
-            text.push('\n');
+        let table = Table::of(&phase.steps)
+            .col("step", 0, |step| step.step)
+            .col("target", 8, |step| step.target)
+            .col("speed", 6, |step| step.speed_counts_per_s);
+        let mut table = self.errors(table, |step| {
+            (&step.last_error_counts, &step.last_timed_out)
+        });
+        if self.lead_times_of.is_some() {
+            let last = |step: &&StepSummary| Some(step.lead.as_ref()?.last);
+            let settled = |step: &&StepSummary| Some(after(step.lead.as_ref()?.settled_after));
+            table = lead_columns(table, last)
+                .col("settled after", 0, |step| settled(step).unwrap_or_default());
         }
-        text.push('\n');
-        Ok(())
+        let functions = |step: &StepSummary| step.lead.as_ref()?.settled_by_function;
+        if phase.steps.iter().any(|step| functions(step).is_some()) {
+            table = table.col("1st, 2nd, exact", 0, |step| {
+                functions(step).map_or(String::new(), |by| {
+                    let each = [by.first_order, by.second_order, by.exact].map(after);
+                    each.join(", ")
+                })
+            });
+        }
+        table.write_apart(text)
     }
 
     fn every_positioning(&self, text: &mut String) -> std::fmt::Result {
-        writeln!(
-            text,
-            "positioning  step{}{}",
-            self.heads(),
-            match self.lead_times_of {
-                Some(_) => "      lead  one code",
-                None => "",
-            }
-        )?;
-        for row in &self.positionings {
-            writeln!(
-                text,
-                "{:>11}  {:>4}{}{}",
-                row.positioning,
-                row.step,
-                self.errors(&row.error_counts, &row.timed_out),
-                row.lead.as_ref().map(columns).unwrap_or_default()
-            )?;
+        let table = Table::of(&self.positionings)
+            .col("positioning", 0, |row| row.positioning)
+            .col("step", 0, |row| row.step);
+        let mut table = self.errors(table, |row| (&row.error_counts, &row.timed_out));
+        if self.lead_times_of.is_some() {
+            table = lead_columns(table, |row| row.lead);
         }
-        text.push('\n');
-        Ok(())
+        table.write_apart(text)
     }
 }

@@ -1,6 +1,7 @@
 //! The summary of a log for people.
 
 use super::Summary;
+use crate::cli::columns::Table;
 use crate::cli::report::{Outcome, Report};
 use std::fmt::Write;
 
@@ -41,21 +42,21 @@ impl Summary {
         if self.predictions == 0 {
             return writeln!(text, "no prediction with a lead\n");
         }
-        writeln!(text, "prediction error in counts   largest       rms")?;
-        for (name, largest, rms) in [
-            (
-                "with the lead",
-                self.error_max_counts,
-                self.error_rms_counts,
-            ),
-            (
-                "without",
-                self.without_lead_max_counts,
-                self.without_lead_rms_counts,
-            ),
-        ] {
-            writeln!(text, "{name:<26}  {largest:>8.1}  {rms:>8.1}")?;
-        }
+        let with = (
+            "with the lead",
+            self.error_max_counts,
+            self.error_rms_counts,
+        );
+        let without = (
+            "without",
+            self.without_lead_max_counts,
+            self.without_lead_rms_counts,
+        );
+        Table::of([with, without])
+            .left("prediction error in counts", 0, |(name, ..)| *name)
+            .col("largest", 8, |(_, largest, _)| format!("{largest:.1}"))
+            .col("rms", 8, |(.., rms)| format!("{rms:.1}"))
+            .write(text)?;
         writeln!(text, "in {} CKs\n", self.predictions)
     }
 
@@ -75,23 +76,18 @@ impl Summary {
             .signals
             .iter()
             .any(|row| row.effect_error_counts.is_some());
-        writeln!(
-            text,
-            "signal of step    target       time      lead  position  a lead later     error{}",
-            if operates { "  at effect" } else { "" }
-        )?;
-        for row in &self.signals[..shown] {
-            let [after, error] = [row.position_after, row.error_counts].map(tenths);
-            write!(
-                text,
-                "{:>14}  {:>8}  {:>7.3} s  {:>5.1} ms  {:>8}  {after:>12}  {error:>8}",
-                row.step, row.target, row.seconds, row.lead_ms, row.position
-            )?;
-            if operates {
-                write!(text, "  {:>9}", tenths(row.effect_error_counts))?;
-            }
-            text.push('\n');
+        let mut table = Table::of(&self.signals[..shown])
+            .col("signal of step", 0, |row| row.step)
+            .col("target", 8, |row| row.target)
+            .col("time", 9, |row| format!("{:.3} s", row.seconds))
+            .col("lead", 8, |row| format!("{:.1} ms", row.lead_ms))
+            .col("position", 0, |row| row.position)
+            .col("a lead later", 0, |row| tenths(row.position_after))
+            .col("error", 8, |row| tenths(row.error_counts));
+        if operates {
+            table = table.col("at effect", 0, |row| tenths(row.effect_error_counts));
         }
+        table.write(text)?;
         writeln!(text, "times are from the first sample of the log on")?;
         let more = self.signals.len() - shown;
         if more > 0 {
