@@ -24,28 +24,6 @@ pub fn more(text: &mut String, left: usize, why: &str) -> fmt::Result {
     }
 }
 
-/// A table with these heads, every column as wide as its head or as said, its cells to the right.
-pub fn table<'h>(
-    text: &mut String,
-    heads: impl AsRef<[(&'h str, usize)]>,
-    rows: impl IntoIterator<Item = impl AsRef<[String]>>,
-) -> fmt::Result {
-    let heads = heads.as_ref();
-    let widths = heads.iter().map(|(head, least)| *least.max(&head.len()));
-    let mut line = |cells: &mut dyn Iterator<Item = &str>| {
-        let cells = cells.zip(widths.clone());
-        let cells: Vec<_> = cells
-            .map(|(cell, width)| format!("{cell:>width$}"))
-            .collect();
-        writeln!(text, "{}", cells.join("  ").trim_end())
-    };
-    line(&mut heads.iter().map(|(head, _)| *head))?;
-    for cells in rows {
-        line(&mut cells.as_ref().iter().map(String::as_str))?;
-    }
-    Ok(())
-}
-
 /// Formats a number with `decimals` decimals; a number that rounds to zero has no sign.
 pub fn fixed(value: f64, decimals: usize) -> String {
     let shown = format!("{value:.decimals$}");

@@ -38,31 +38,9 @@ struct Output<'a> {
     patterns: usize,
     #[serde(flatten)]
     report: &'a Report,
-    scaling: Option<Vec<AxisDeviation>>,
+    scaling: Option<&'a [AxisScaling]>,
     warnings: Vec<String>,
     files: Vec<Named>,
-}
-
-/// Effect of scaling the data on an axis.
-#[derive(Debug, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct AxisDeviation {
-    /// Largest difference from the ideal in one unit time, in pulses.
-    pub largest_deviation_pulses_per_unit: f64,
-    /// Position at the end less the ideal one, in steps.
-    pub drift_steps: f64,
-    /// Unit times whose half-period was rounded.
-    pub rounded_units: usize,
-}
-
-impl From<&AxisScaling> for AxisDeviation {
-    fn from(axis: &AxisScaling) -> Self {
-        AxisDeviation {
-            largest_deviation_pulses_per_unit: axis.largest_deviation,
-            drift_steps: axis.drift,
-            rounded_units: axis.rounded_units,
-        }
-    }
 }
 
 pub fn table(arguments: &Arguments) -> Result<(), Failure> {
@@ -87,9 +65,7 @@ pub fn table(arguments: &Arguments) -> Result<(), Failure> {
         list.add(&ours);
         files.push(Named::new(&written));
     }
-    let scaling = scaled
-        .as_ref()
-        .map(|scaled| scaled.axes.iter().map(Into::into).collect());
+    let scaling = scaled.as_ref().map(|scaled| &scaled.axes[..]);
     let output = Output {
         version: errors::VERSION,
         input: &job.drawing.file,
@@ -177,12 +153,12 @@ fn text(job: &Job, output: &Output<'_>) -> String {
     }
     text.push('\n');
     text.push_str(&TableSummary::new(job).text());
-    for (axis, name) in output.scaling.iter().flatten().zip(AXIS_NAMES) {
+    for (axis, name) in output.scaling.into_iter().flatten().zip(AXIS_NAMES) {
         let _ = writeln!(
             text,
             "scaled, {name}: at most {:.3} pulses a unit time off the ideal, {:+.3} steps at the \
              end, {} half-periods rounded",
-            axis.largest_deviation_pulses_per_unit, axis.drift_steps, axis.rounded_units
+            axis.largest_deviation, axis.drift, axis.rounded_units
         );
     }
     for warning in &output.warnings {

@@ -451,7 +451,13 @@ fn the_file_is_named_with_the_others_or_not_left() {
     assert_eq!(whole(&summary, "/files/0/bytes"), bytes as i64);
     // Only what stands beside the waves is known to `clean` of their directory.
     bench.succeed(&[&run[..], &["--series", "waves/s.csv"]].concat());
-    bench.write("waves/s.NPY", "mine");
+    std::fs::copy(bench.path("deep/er/s.NPY"), bench.path("waves/s.NPY")).unwrap();
+    let times = std::fs::metadata(bench.path("deep/er/s.NPY")).unwrap();
+    let copy = std::fs::File::options()
+        .append(true)
+        .open(bench.path("waves/s.NPY"))
+        .unwrap();
+    copy.set_modified(times.modified().unwrap()).unwrap();
     bench.succeed(&["clean", "waves", "--yes"]);
     let left = [
         "deep/",

@@ -44,43 +44,21 @@ pub struct Row {
     pub conventional_in_proportion: Option<Figures>,
 }
 
-/// Figures of a cycle on one system.
+/// Measures of a cycle on one system.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Figures {
-    /// Scans from the first command to the last.
-    pub scans: usize,
-    /// Those scans in seconds.
-    pub seconds: f64,
-    /// Command at the end less the target, in counts.
-    pub end_error_counts: [i64; 2],
-    /// Largest change of the commanded speed from scan to scan, on the master axis or, without one,
-    /// on the axis with the longer way.
-    pub master_acceleration_counts_per_scan2: u64,
-    /// Largest such change on the other axis.
-    pub slave_acceleration_counts_per_scan2: u64,
-    /// Largest deviation of the commands from the ideal line, along the slave axis.
-    pub deviation_lsb: f64,
-    /// Largest deviation perpendicular to the line.
-    pub deviation_perpendicular_counts: f64,
-    /// Largest distance of the motors from the line, until the next cycle begins.
-    pub contour_error_counts: f64,
-    /// That distance in micrometres.
-    pub contour_error_um: f64,
+    /// Scans from the first command to the last, in seconds.
+    seconds: f64,
+    #[serde(flatten)]
+    pub segment: Segment,
 }
 
 impl Figures {
     fn new(segment: &Segment, scan_s: f64) -> Self {
         Figures {
-            scans: segment.scans,
             seconds: segment.scans as f64 * scan_s,
-            end_error_counts: segment.end_error,
-            master_acceleration_counts_per_scan2: segment.acceleration[segment.master],
-            slave_acceleration_counts_per_scan2: segment.acceleration[1 - segment.master],
-            deviation_lsb: segment.deviation.lsb(),
-            deviation_perpendicular_counts: segment.perpendicular_counts,
-            contour_error_counts: segment.contour_counts,
-            contour_error_um: segment.contour_um,
+            segment: *segment,
         }
     }
 }

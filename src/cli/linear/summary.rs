@@ -86,19 +86,19 @@ impl SystemSummary {
                 .map(value)
                 .fold(0.0, f64::max)
         };
-        let contour = |figures: Figures| figures.contour_error_um;
+        let contour = |figures: Figures| figures.segment.contour_um;
         SystemSummary {
             ticks: played.ticks,
             seconds: played.ticks as f64 / job.settings.clock_hz as f64,
             scans: run.shown.count(),
             end_position: run.end_position,
             master_acceleration_max_counts_per_scan2: accelerated(|figures| {
-                figures.master_acceleration_counts_per_scan2
+                figures.segment.master_acceleration
             }),
             slave_acceleration_max_counts_per_scan2: accelerated(|figures| {
-                figures.slave_acceleration_counts_per_scan2
+                figures.segment.slave_acceleration
             }),
-            deviation_max_lsb: largest(&|figures| figures.deviation_lsb, &[false, true]),
+            deviation_max_lsb: largest(&|figures| figures.segment.deviation.lsb(), &[false, true]),
             contour_error_max_um: largest(&contour, &[false]),
             contour_error_max_rapid_um: largest(&contour, &[true]),
             saturated_scans: played.saturated_scans,

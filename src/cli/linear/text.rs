@@ -1,9 +1,11 @@
 //! The summary for people.
 
 use super::rows::{Figures, Row};
-use super::summary::{Summary, SystemSummary};
+use super::summary::Summary;
 use super::{other_name, way_name};
+use crate::cli::columns::Table;
 use crate::cli::report::{Outcome, Report};
+use crate::cli::rows::or_dash;
 use motion_rtl::jobs::linear_interpolator::ways::Way;
 use std::fmt::Write;
 
@@ -25,24 +27,35 @@ impl Report for Summary {
             self.scans,
             self.outcome.length()
         )?;
-        writeln!(
-            text,
-            "{:35}  scans  seconds       end position    deviation  contour error  of rapid moves  \
-             acceleration of master, slave",
-            "system"
-        )?;
-        totals(text, "interpolator", &self.interpolator)?;
-        if let (Some(master), Some(other)) = (self.other_master, &self.interpolator_other_master) {
-            totals(text, &other_name(master), other)?;
-        }
-        for (way, system) in Way::ALL
-            .iter()
-            .zip([&self.conventional, &self.conventional_in_proportion])
-        {
-            if let Some(system) = system {
-                totals(text, &way_name(*way), system)?;
-            }
-        }
+        let mut systems = vec![("interpolator".to_owned(), &self.interpolator)];
+        let other = self.interpolator_other_master.as_ref();
+        systems.extend(self.other_master.map(other_name).zip(other));
+        let ways = [&self.conventional, &self.conventional_in_proportion];
+        let ways = Way::ALL.into_iter().zip(ways);
+        systems.extend(ways.filter_map(|(way, system)| Some((way_name(way), system.as_ref()?))));
+        Table::of(systems)
+            .left("system", 33, |(name, _)| name.clone())
+            .col("scans", 6, |(_, system)| system.scans)
+            .col("seconds", 7, |(_, system)| format!("{:.3}", system.seconds))
+            .col("end position", 17, |(_, system)| {
+                let [x, y] = system.end_position;
+                format!("{x}, {y}")
+            })
+            .col("deviation", 11, |(_, system)| lsb(system.deviation_max_lsb))
+            .col("contour error", 0, |(_, system)| {
+                um(system.contour_error_max_um)
+            })
+            .col("of rapid moves", 0, |(_, system)| {
+                um(system.contour_error_max_rapid_um)
+            })
+            .left("acceleration of master, slave", 0, |(_, system)| {
+                format!(
+                    "{:>9}, {:>3} counts/scan2",
+                    system.master_acceleration_max_counts_per_scan2,
+                    system.slave_acceleration_max_counts_per_scan2
+                )
+            })
+            .write(text)?;
         text.push('\n');
         if !self.segments.is_empty() {
             self.table(text, all)?;
@@ -65,44 +78,46 @@ impl Summary {
         for name in others {
             write!(text, "  {name:^36}")?;
         }
-        let figures = "    scans    deviation  contour error";
-        write!(
-            text,
-            "\nsegment  line   pen      dx       dy  master     asked   reached{figures}"
-        )?;
-        for _ in others {
-            write!(text, " {figures}")?;
-        }
         text.push('\n');
         let mut rows: Vec<&Row> = self.segments.iter().collect();
         if !all {
             // Drawn moves matter more.
             rows.sort_by(|a, b| {
-                let error = |row: &Row| row.interpolator.contour_error_um;
+                let error = |row: &Row| row.interpolator.segment.contour_um;
                 a.rapid.cmp(&b.rapid).then(error(b).total_cmp(&error(a)))
             });
             rows.truncate(SHOWN);
         }
-        for row in &rows {
-            write!(
-                text,
-                "{:>7}  {:>4}  {:>4}  {:>6}  {:>7}  {:>6}  {:>8.1}  {:>8.1}  {}",
-                row.segment,
-                row.line,
-                if row.rapid { "up" } else { "down" },
-                row.delta[0],
-                row.delta[1],
-                row.master,
-                row.speed_asked_mm_per_min,
-                row.speed_reached_mm_per_min,
-                columns(&row.interpolator),
-            )?;
-            let others = [&row.conventional, &row.conventional_in_proportion];
-            for figures in others.into_iter().flatten() {
-                write!(text, "  {}", columns(figures))?;
-            }
-            text.push('\n');
+        let mut table = Table::of(&rows)
+            .col("segment", 0, |row| row.segment)
+            .col("line", 0, |row| row.line)
+            .col("pen", 4, |row| if row.rapid { "up" } else { "down" })
+            .col("dx", 6, |row| row.delta[0])
+            .col("dy", 7, |row| row.delta[1])
+            .col("master", 0, |row| row.master)
+            .col("asked", 8, |row| {
+                format!("{:.1}", row.speed_asked_mm_per_min)
+            })
+            .col("reached", 8, |row| {
+                format!("{:.1}", row.speed_reached_mm_per_min)
+            });
+        let systems: [fn(&Row) -> Option<Figures>; 3] = [
+            |row| Some(row.interpolator),
+            |row| row.conventional,
+            |row| row.conventional_in_proportion,
+        ];
+        for of in &systems[..=others.len()] {
+            let segment = |row: &&&Row| of(row).map(|figures| figures.segment);
+            table = table
+                .col("scans", 7, |row| or_dash(segment(row).map(|of| of.scans)))
+                .col("deviation", 11, |row| {
+                    or_dash(segment(row).map(|of| lsb(of.deviation.lsb())))
+                })
+                .col("contour error", 0, |row| {
+                    or_dash(segment(row).map(|of| um(of.contour_um)))
+                });
         }
+        table.write(text)?;
         let more = self.segments.len() - rows.len();
         if more > 0 {
             writeln!(
@@ -114,29 +129,14 @@ impl Summary {
     }
 }
 
-fn totals(text: &mut String, name: &str, system: &SystemSummary) -> std::fmt::Result {
-    let [x, y] = system.end_position;
-    writeln!(
-        text,
-        "{name:<33} {:>7} {:>8.3}  {:>17}  {:>7.3} LSB  {:>10.1} um  {:>11.1} um  {:>9}, {:>3} counts/scan2",
-        system.scans,
-        system.seconds,
-        format!("{x}, {y}"),
-        rounded_down(system.deviation_max_lsb),
-        system.contour_error_max_um,
-        system.contour_error_max_rapid_um,
-        system.master_acceleration_max_counts_per_scan2,
-        system.slave_acceleration_max_counts_per_scan2,
-    )
+/// Formats a deviation.
+fn lsb(deviation: f64) -> String {
+    format!("{:.3} LSB", rounded_down(deviation))
 }
 
-fn columns(figures: &Figures) -> String {
-    format!(
-        "{:>7}  {:>7.3} LSB  {:>10.1} um",
-        figures.scans,
-        rounded_down(figures.deviation_lsb),
-        figures.contour_error_um
-    )
+/// Formats a distance.
+fn um(distance: f64) -> String {
+    format!("{distance:.1} um")
 }
 
 /// To thousandths: what is below 1 does not show as 1.

@@ -1,13 +1,13 @@
 //! Results of the device, and of the same program on the conventional device of Fig. 5.
 
 use super::Job;
-use super::summary::Minima;
 use crate::cli::Failure;
 use crate::cli::source::drawing_fault;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
 use motion_rtl::jobs::pulse_interpolator::beside::{device, least_period, orders, play};
 use motion_rtl::jobs::pulse_interpolator::job::{Played, group};
 use motion_rtl::jobs::pulse_interpolator::moves::{self, MoveError, Moves};
+use motion_rtl::jobs::pulse_interpolator::step_dir::TimingMinima;
 use motion_rtl::jobs::pulse_interpolator::{UnitDemand, demanded};
 use motion_rtl::scenario::pulse_interpolator::ConventionalMoves;
 use motion_rtl::sim::{Elaborated, RunError};
@@ -76,7 +76,7 @@ fn most(values: impl Iterator<Item = f64>) -> f64 {
 /// The device as it played a job, without the search for its least T.
 pub fn own(job: &Job, played: &Played, end_error: f64) -> Result<Row, Failure> {
     let model = Elaborated::new(&group(&job.table, job.variant.into())).map_err(RunError::from)?;
-    let kept = |minima: Minima| minima.too_short(&job.settings.timing).next().is_none();
+    let kept = |minima: TimingMinima| minima.too_short(&job.settings.timing).next().is_none();
     let row = Row {
         circuit: "",
         units: played.positions.units,
@@ -84,7 +84,7 @@ pub fn own(job: &Job, played: &Played, end_error: f64) -> Result<Row, Failure> {
         unit_ticks_least: None,
         jitter_ticks_max: most(played.axes.iter().map(|axis| axis.jitter)),
         end_error_steps_max: end_error,
-        timing_kept: played.axes.iter().all(|axis| kept(axis.minima.into())),
+        timing_kept: played.axes.iter().all(|axis| kept(axis.minima)),
         adders: 0,
         adder_bits: 0,
         flip_flops: 0,
@@ -128,7 +128,7 @@ pub fn compare(job: &Job, own: Row) -> Result<(Vec<Row>, Vec<String>), Failure> 
     let Moves { orders, demands } = moves(job)?;
     let circuit = device(axes, &orders);
     let beside = play(&circuit, &orders, None, &mut ())?;
-    let kept = |minima: Minima| minima.too_short(timing).next().is_none();
+    let kept = |minima: TimingMinima| minima.too_short(timing).next().is_none();
     let model = Elaborated::new(&circuit).map_err(RunError::from)?;
     let own = Row {
         unit_ticks_least: Some(least_period(table, job.variant.into())?.into()),
@@ -140,7 +140,7 @@ pub fn compare(job: &Job, own: Row) -> Result<(Vec<Row>, Vec<String>), Failure> 
         unit_ticks_least: Some(beside.needed),
         jitter_ticks_max: most(beside.jitter.iter().copied()),
         end_error_steps_max: end_error(&demands, &beside.positions, axes),
-        timing_kept: beside.minima.iter().all(|minima| kept((*minima).into())),
+        timing_kept: beside.minima.iter().all(|minima| kept(*minima)),
         ..own
     };
     let rows = vec![own, other.costing(&model)];

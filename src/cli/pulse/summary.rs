@@ -8,7 +8,7 @@ use super::verdict::complaints;
 use crate::cli::report::Outcome;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
 use motion_rtl::jobs::pulse_interpolator::step_dir::TimingMinima;
-use motion_rtl::jobs::pulse_interpolator::{FollowingError, Remedy, StepTiming};
+use motion_rtl::jobs::pulse_interpolator::{FollowingError, Remedy};
 use serde::Serialize;
 
 /// The summary of a run.
@@ -68,57 +68,7 @@ pub struct AxisSummary {
     /// Largest distance from the demand, at whatever time.
     pub following_error_max: FollowingError,
     /// Shortest times on the step and direction lines, in ticks; `null` where there was none.
-    pub timing_min_ticks: Minima,
-}
-
-/// Shortest times on the step and direction lines, in ticks.
-#[derive(Debug, Clone, Copy, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Minima {
-    /// High time of a step pulse.
-    pub high: Option<u64>,
-    /// Low time between two.
-    pub low: Option<u64>,
-    /// From a change of direction to the next pulse.
-    pub setup: Option<u64>,
-    /// From a pulse to a change of direction.
-    pub hold: Option<u64>,
-}
-
-impl From<TimingMinima> for Minima {
-    fn from(minima: TimingMinima) -> Self {
-        let TimingMinima {
-            high,
-            low,
-            setup,
-            hold,
-        } = minima;
-        Minima {
-            high,
-            low,
-            setup,
-            hold,
-        }
-    }
-}
-
-impl Minima {
-    /// The times that are shorter than a driver asks for that wants `timing`.
-    pub fn too_short(&self, timing: &StepTiming) -> impl Iterator<Item = String> {
-        [
-            ("step high time", self.high, timing.step_high_ticks),
-            ("step low time", self.low, timing.step_low_ticks),
-            ("direction setup time", self.setup, timing.dir_setup_ticks),
-            ("direction hold time", self.hold, timing.dir_hold_ticks),
-        ]
-        .into_iter()
-        .filter_map(|(what, least, limit)| {
-            let ticks = least.filter(|&ticks| ticks < u64::from(limit))?;
-            Some(format!(
-                "{what} of {ticks} ticks where the driver asks for {limit}"
-            ))
-        })
-    }
+    pub timing_min_ticks: TimingMinima,
 }
 
 impl TableSummary {
@@ -179,7 +129,7 @@ impl Summary {
                 pulses_down: axis.pulses_down,
                 end_position: i64::from(report.start_position) + axis.position(),
                 following_error_max: *error,
-                timing_min_ticks: axis.minima.into(),
+                timing_min_ticks: axis.minima,
             })
             .collect();
         let mut complaints = complaints(job, played);

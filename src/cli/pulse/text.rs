@@ -1,24 +1,28 @@
 //! The summary for people.
 
 use super::rates;
-use super::summary::{Minima, Summary, TableSummary};
+use super::summary::{Summary, TableSummary};
+use crate::cli::columns::Table;
 use crate::cli::report::{Outcome, Report};
-use crate::cli::rows::{fixed, or_dash, table};
+use crate::cli::rows::{fixed, or_dash};
+use motion_rtl::jobs::pulse_interpolator::step_dir::TimingMinima;
 use std::fmt::Write;
 
-/// The column of the least T, where that was looked for.
-const LEAST_T: usize = 3;
+/// Width of the names of circuits.
+const NAME: usize = 31;
 
-/// Columns of the shortest times.
-pub fn timing(minima: &Minima) -> String {
-    let Minima {
-        high,
-        low,
-        setup,
-        hold,
-    } = minima;
-    let columns = [high, low, setup, hold].map(|ticks| format!("{:>5}", or_dash(*ticks)));
-    columns.join(" ")
+/// Appends columns of the shortest times, of which the last has a head that goes on.
+pub fn timing<R>(table: Table<R>, of: impl Fn(&R) -> TimingMinima) -> Table<R> {
+    table.col(" high   low setup  hold (min ticks)", 0, |row| {
+        let TimingMinima {
+            high,
+            low,
+            setup,
+            hold,
+        } = of(row);
+        let cells = [high, low, setup, hold].map(|ticks| format!("{:>5}", or_dash(ticks)));
+        format!("{:<35}", cells.join(" "))
+    })
 }
 
 impl Report for Summary {
@@ -35,26 +39,19 @@ impl Report for Summary {
             self.outcome.length()
         )?;
         text.push('\n');
-        writeln!(
-            text,
-            "axis  steps demanded  pulses emitted      up    down  end position  following error \
-             (unit, line)  high   low setup  hold (min ticks)"
-        )?;
-        for (name, axis) in self.axes.iter() {
-            let error = axis.following_error_max;
-            writeln!(
-                text,
-                "{name:<4}  {:>14}  {:>14}  {:>6}  {:>6}  {:>12}  {:>15} {:>12}  {}",
-                axis.steps_demanded,
-                axis.pulses_emitted,
-                axis.pulses_up,
-                axis.pulses_down,
-                axis.end_position,
-                format!("{:.3} steps", error.steps),
-                format!("({}, {})", error.unit, error.line),
-                timing(&axis.timing_min_ticks),
-            )?;
-        }
+        let axes = Table::of(self.axes.iter())
+            .left("axis", 4, |(name, _)| name)
+            .col("steps demanded", 0, |(_, axis)| axis.steps_demanded)
+            .col("pulses emitted", 0, |(_, axis)| axis.pulses_emitted)
+            .col("up", 6, |(_, axis)| axis.pulses_up)
+            .col("down", 6, |(_, axis)| axis.pulses_down)
+            .col("end position", 0, |(_, axis)| axis.end_position)
+            .col("following error (unit, line)", 0, |(_, axis)| {
+                let error = axis.following_error_max;
+                let place = format!("({}, {})", error.unit, error.line);
+                format!("{:.3} steps {place:>12}", error.steps)
+            });
+        timing(axes, |(_, axis)| axis.timing_min_ticks).write(text)?;
         text.push('\n');
         rates::write(&self.step_rates, text)?;
         text.push('\n');
@@ -72,60 +69,37 @@ impl Report for Summary {
 
 impl Summary {
     /// Writes how well each device played the program, with the least T if it was searched for.
-    fn played(&self, text: &mut String, name: impl Fn(&str) -> String) -> std::fmt::Result {
+    fn played(&self, text: &mut String) -> std::fmt::Result {
         let rows = self.circuits.iter();
         let searched = rows.clone().any(|row| row.unit_ticks_least.is_some());
-        let mut heads = vec![
-            ("at this program                ", 0),
-            ("unit times", 0),
-            ("late", 4),
-            ("jitter ticks", 0),
-            ("error steps", 0),
-            ("driver's times", 0),
-        ];
+        let mut table = Table::of(rows)
+            .left("at this program", NAME, |row| row.circuit)
+            .col("unit times", 0, |row| row.units)
+            .col("late", 4, |row| row.late_units);
         if searched {
-            heads.insert(LEAST_T, ("least T", 0));
+            table = table.col("least T", 0, |row| or_dash(row.unit_ticks_least));
         }
-        let cells = rows.map(|row| {
-            let kept = if row.timing_kept { "kept" } else { "not kept" };
-            let mut cells = vec![
-                name(row.circuit),
-                row.units.to_string(),
-                row.late_units.to_string(),
-                fixed(row.jitter_ticks_max, 3),
-                fixed(row.end_error_steps_max, 3),
-                kept.to_owned(),
-            ];
-            if searched {
-                cells.insert(LEAST_T, or_dash(row.unit_ticks_least));
-            }
-            cells
-        });
-        table(text, heads, cells)
+        table
+            .col("jitter ticks", 0, |row| fixed(row.jitter_ticks_max, 3))
+            .col("error steps", 0, |row| fixed(row.end_error_steps_max, 3))
+            .col("driver's times", 0, |row| match row.timing_kept {
+                true => "kept",
+                false => "not kept",
+            })
+            .write(text)
     }
 
     fn circuits(&self, text: &mut String) -> std::fmt::Result {
-        let name = |circuit: &str| format!("{circuit:<31}");
         text.push('\n');
-        self.played(text, name)?;
+        self.played(text)?;
         text.push('\n');
-        let heads = [
-            ("a circuit has                  ", 0),
-            ("adders", 0),
-            ("their bits", 0),
-            ("flip-flops", 0),
-            ("memory bits", 0),
-        ];
-        let cells = self.circuits.iter().map(|row| {
-            [
-                name(row.circuit),
-                row.adders.to_string(),
-                row.adder_bits.to_string(),
-                row.flip_flops.to_string(),
-                row.memory_bits.to_string(),
-            ]
-        });
-        table(text, heads, cells)
+        Table::of(&self.circuits)
+            .left("a circuit has", NAME, |row| row.circuit)
+            .col("adders", 0, |row| row.adders)
+            .col("their bits", 0, |row| row.adder_bits)
+            .col("flip-flops", 0, |row| row.flip_flops)
+            .col("memory bits", 0, |row| row.memory_bits)
+            .write(text)
     }
 }
 

@@ -1,7 +1,6 @@
 //! Verdict on a run: its pulses against the table and the driver's timing.
 
 use super::Job;
-use super::summary::Minima;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
 use motion_rtl::jobs::pulse_interpolator::Table;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
@@ -21,8 +20,7 @@ pub fn complaints(job: &Job, played: &Played) -> Vec<String> {
                 "{name}: {ended} steps where {demanded} are demanded"
             ));
         }
-        let minima = Minima::from(played.axes[axis].minima);
-        let short = minima.too_short(&job.settings.timing);
+        let short = played.axes[axis].minima.too_short(&job.settings.timing);
         complaints.extend(short.map(|text| format!("{name}: {text}")));
     }
     complaints

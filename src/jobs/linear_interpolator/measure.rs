@@ -1,6 +1,7 @@
 //! Measures of a run: the deviation of commands and motors from the ideal lines.
 
 use crate::circuits::linear_interpolator::Rule;
+use serde::{Serialize, Serializer};
 use std::ops::Range;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -216,7 +217,8 @@ impl CycleMeasuring {
         let [contour_counts, contour_mm] = self.contour;
         Segment {
             delta,
-            acceleration: self.acceleration,
+            master_acceleration: self.acceleration[master],
+            slave_acceleration: self.acceleration[slave],
             master,
             scans: self.scans,
             end_error: [0, 1].map(|axis| cycle.end[axis] - cycle.to[axis]),
@@ -284,6 +286,13 @@ pub struct Deviation {
     pub denominator: u128,
 }
 
+/// Serializes the deviation in LSB.
+impl Serialize for Deviation {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_f64(self.lsb())
+    }
+}
+
 impl Deviation {
     /// Returns the deviation in LSB.
     #[must_use]
@@ -302,25 +311,38 @@ impl Deviation {
 }
 
 /// Measures of one cycle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Segment {
     /// Distances Δx and Δy in counts.
+    #[serde(skip)]
     pub delta: [i64; 2],
     /// Master axis, or the axis with the longer distance if there is none: 0 is X, 1 is Y.
+    #[serde(skip)]
     pub master: usize,
     /// Number of scans from the first command to the last, inclusive.
     pub scans: usize,
     /// Command at the end minus target, in counts.
+    #[serde(rename = "end_error_counts")]
     pub end_error: [i64; 2],
-    /// Greatest change of the commanded speed of X and Y from scan to scan, from rest to rest, in
+    /// Greatest change of the master axis' commanded speed from scan to scan, from rest to rest, in
     /// counts per scan.
-    pub acceleration: [u64; 2],
+    #[serde(rename = "master_acceleration_counts_per_scan2")]
+    pub master_acceleration: u64,
+    /// Greatest such change on the other axis.
+    #[serde(rename = "slave_acceleration_counts_per_scan2")]
+    pub slave_acceleration: u64,
     /// Greatest deviation of a command from the ideal line, along the slave axis.
+    #[serde(rename = "deviation_lsb")]
+    #[cfg_attr(feature = "schema", schemars(with = "f64"))]
     pub deviation: Deviation,
     /// Greatest deviation perpendicular to the line, in counts.
+    #[serde(rename = "deviation_perpendicular_counts")]
     pub perpendicular_counts: f64,
     /// Greatest distance of the motors from the line until the next cycle begins, in counts.
+    #[serde(rename = "contour_error_counts")]
     pub contour_counts: f64,
     /// Greatest distance of the motors from the line, in micrometres.
+    #[serde(rename = "contour_error_um")]
     pub contour_um: f64,
 }

@@ -6,6 +6,7 @@ use crate::plant::waves::fine;
 use crate::plant::{StepMotor, StepMotorParameters};
 use crate::settings::SettingError;
 use crate::sim::Beside;
+use serde::Serialize;
 
 signals! { for StepMotors as _c;
     /// True motion of a step motor.
@@ -39,16 +40,18 @@ impl Beside for StepMotors {
     type Signals<V: View> = StepMotorsSignals<V>;
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// Result of a motor.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MotorReport {
     /// Greatest distance between rotor and field, in full steps.
     pub off_full_steps: f64,
     /// First unit time of the table with that distance.
     pub off_unit: usize,
-    /// First unit time in which the rotor was nearer to another tooth than to its own.
-    pub lost_unit: Option<usize>,
     /// Driver steps that are permanently lost: the motor is behind by these when it comes to rest.
     pub lost_steps: i64,
+    /// First unit time in which the rotor was nearer to another tooth than to its own.
+    pub lost_unit: Option<usize>,
 }
 
 /// Motor that is being observed.

@@ -2,14 +2,18 @@
 
 use super::Table;
 use crate::circuits::pulse_interpolator::counts::pulses;
+use serde::Serialize;
 
 /// Step rates of an axis in steps per second.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StepRates {
     /// Greatest rate.
+    #[serde(rename = "largest_per_s")]
     pub largest: f64,
     /// Greatest change from one unit time to the next; the axis is at rest before the first and
     /// after the last.
+    #[serde(rename = "change_per_s")]
     pub change: f64,
     /// Unit time that begins with that change: the number of units for the change at the end.
     pub change_unit: usize,

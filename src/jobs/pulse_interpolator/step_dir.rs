@@ -5,10 +5,12 @@
 use super::StepTiming;
 use crate::circuits::pulse_interpolator::{AXIS_NAMES, Group};
 use crate::sim::{Observer, RunError, Sample};
+use serde::Serialize;
 use std::ops::ControlFlow;
 
-/// Least times so far, in ticks; `None` if there was no such pair of edges.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// Least times so far, in ticks; each is absent if there was no such pair of edges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TimingMinima {
     /// Step high.
     pub high: Option<u64>,
@@ -18,6 +20,25 @@ pub struct TimingMinima {
     pub setup: Option<u64>,
     /// Time from a step to the next change of direction.
     pub hold: Option<u64>,
+}
+
+impl TimingMinima {
+    /// Returns a message for each time that is shorter than `timing` allows.
+    pub fn too_short(&self, timing: &StepTiming) -> impl Iterator<Item = String> {
+        [
+            ("step high time", self.high, timing.step_high_ticks),
+            ("step low time", self.low, timing.step_low_ticks),
+            ("direction setup time", self.setup, timing.dir_setup_ticks),
+            ("direction hold time", self.hold, timing.dir_hold_ticks),
+        ]
+        .into_iter()
+        .filter_map(|(name, least, limit)| {
+            let ticks = least.filter(|&ticks| ticks < u64::from(limit))?;
+            Some(format!(
+                "{name} of {ticks} ticks where the driver asks for {limit}"
+            ))
+        })
+    }
 }
 
 /// Two edges that came too close.

@@ -62,7 +62,8 @@ fn the_measures_of_known_records() {
         scans: 3,
         end_error: [0, 0],
         // Speeds of 0, 20, 20, 0 and 1, 14, 15, 0.
-        acceleration: [20, 15],
+        master_acceleration: 20,
+        slave_acceleration: 15,
         deviation: Deviation {
             numerator: 40,
             denominator: 40,
@@ -76,8 +77,9 @@ fn the_measures_of_known_records() {
         master: 1,
         scans: 2,
         end_error: [1, 0],
-        // 0, 1, 0 and −40, −10, 0.
-        acceleration: [1, 40],
+        // Y leads: −40, −10, 0; X 0, 1, 0.
+        master_acceleration: 40,
+        slave_acceleration: 1,
         deviation: Deviation {
             numerator: 50,
             denominator: 50,

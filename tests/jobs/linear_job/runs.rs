@@ -116,14 +116,12 @@ fn the_circuits_command_what_the_formulas_say_in_every_scan_of_a_job() {
         as_the_formulas_say(&ours, &targets, &settings);
         // ¶0014: a slave with the shorter way accelerates no more than its master, but for the
         // count that rounding makes. A fixed master has slaves with longer ways.
-        let largest = |of: fn(&Segment) -> usize| {
+        let largest = |of: fn(&Segment) -> u64| {
             let segments = ours.segments(settings.counts_per_mm);
-            let largest = segments
-                .iter()
-                .map(|segment| segment.acceleration[of(segment)]);
-            largest.max().unwrap()
+            segments.iter().map(of).max().unwrap()
         };
-        let (leads, follows) = (largest(|s| s.master), largest(|s| 1 - s.master));
+        let leads = largest(|segment| segment.master_acceleration);
+        let follows = largest(|segment| segment.slave_acceleration);
         match master {
             MasterAxis::Longer => assert!(follows <= leads + 1, "{leads}, {follows}"),
             _ => assert!(follows > 5 * leads, "{leads}, {follows}"),

@@ -1,17 +1,17 @@
 //! Summary of a run of patterns.
 
 use super::Job;
+use crate::cli::columns::Table;
 use crate::cli::pulse::by_axis::ByAxis;
 use crate::cli::pulse::rates::{self, Rows};
-use crate::cli::pulse::summary::Minima;
 use crate::cli::pulse::text::timing;
 use crate::cli::pulse::verdict::miscount;
 use crate::cli::report::{Outcome, Report};
-use crate::cli::table::AxisDeviation;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
 use motion_rtl::jobs::pulse_interpolator::positions::steps_of;
-use motion_rtl::jobs::pulse_interpolator::{StepTiming, Table};
+use motion_rtl::jobs::pulse_interpolator::step_dir::TimingMinima;
+use motion_rtl::jobs::pulse_interpolator::{self, AxisScaling, StepTiming};
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -65,7 +65,7 @@ struct PatternSummary {
     /// Factor by which the data were scaled.
     scale: Option<String>,
     /// Effect of scaling on each axis; on a closed path `drift_steps` is the gap.
-    scaling: Option<Vec<AxisDeviation>>,
+    scaling: Option<Vec<AxisScaling>>,
 }
 
 /// An axis, as its motor driver saw it.
@@ -79,11 +79,11 @@ pub(super) struct AxisSummary {
     /// Position at the end, in steps.
     end_position: i64,
     /// Shortest times on the step and direction lines, in ticks.
-    timing_min_ticks: Minima,
+    timing_min_ticks: TimingMinima,
 }
 
 /// Steps of each axis over a table, by the count law.
-fn steps(table: &Table) -> Vec<i64> {
+fn steps(table: &pulse_interpolator::Table) -> Vec<i64> {
     let mut steps = vec![0; table.axes()];
     for (period, words) in table.iter() {
         for (sum, word) in steps.iter_mut().zip(words.iter()) {
@@ -95,45 +95,41 @@ fn steps(table: &Table) -> Vec<i64> {
 
 /// The axes that played a table, and what is wrong with them.
 pub(super) fn axes(
-    table: &Table,
+    table: &pulse_interpolator::Table,
     played: &Played,
     timing: &StepTiming,
 ) -> (ByAxis<AxisSummary>, Vec<String>) {
     let mut complaints = Vec::new();
     let mut axes = Vec::new();
     for (axis, (name, seen)) in AXIS_NAMES.into_iter().zip(&played.axes).enumerate() {
-        let minima = Minima::from(seen.minima);
         let miscounted = miscount(table, played, axis);
-        let short = minima.too_short(timing);
+        let short = seen.minima.too_short(timing);
         let all = miscounted.into_iter().chain(short);
         complaints.extend(all.map(|text| format!("{name}: {text}")));
         axes.push(AxisSummary {
             pulses_up: seen.pulses_up,
             pulses_down: seen.pulses_down,
             end_position: seen.position(),
-            timing_min_ticks: minima,
+            timing_min_ticks: seen.minima,
         });
     }
     (axes.into_iter().collect(), complaints)
 }
 
+/// Returns numbers with commas between them.
+fn joined(numbers: &[impl ToString]) -> String {
+    let numbers: Vec<_> = numbers.iter().map(ToString::to_string).collect();
+    numbers.join(", ")
+}
+
 /// Writes a row for each axis.
 pub(super) fn write_axes(axes: &ByAxis<AxisSummary>, text: &mut String) -> std::fmt::Result {
-    writeln!(
-        text,
-        "axis      up    down  end position   high   low setup  hold (min ticks)"
-    )?;
-    for (name, axis) in axes.iter() {
-        writeln!(
-            text,
-            "{name:<4}  {:>6}  {:>6}  {:>12}  {}",
-            axis.pulses_up,
-            axis.pulses_down,
-            axis.end_position,
-            timing(&axis.timing_min_ticks),
-        )?;
-    }
-    Ok(())
+    let axes = Table::of(axes.iter())
+        .left("axis", 4, |(name, _)| name)
+        .col("up", 6, |(_, axis)| axis.pulses_up)
+        .col("down", 6, |(_, axis)| axis.pulses_down)
+        .col("end position", 0, |(_, axis)| axis.end_position);
+    timing(axes, |(_, axis)| axis.timing_min_ticks).write(text)
 }
 
 impl Summary {
@@ -154,10 +150,7 @@ impl Summary {
             closed: steps(&pattern.given).iter().all(|steps| *steps == 0),
             end_steps: steps(&pattern.table),
             scale: pattern.keys.scale.clone(),
-            scaling: pattern
-                .scaling
-                .as_ref()
-                .map(|axes| axes.iter().map(Into::into).collect()),
+            scaling: pattern.scaling.clone(),
         });
         let exact = complaints.is_empty();
         let step_rates = rates::rows(&stored.played, played);
@@ -213,20 +206,15 @@ impl Report for Summary {
             text,
             "{taken} of {room} words of the memory, none rewritten; {by}\n"
         )?;
-        writeln!(text, "pattern       addresses      T (ticks)  end (steps)")?;
-        for pattern in &self.patterns {
-            let [first, last] = pattern.addresses;
-            let list =
-                |numbers: &mut dyn Iterator<Item = String>| numbers.collect::<Vec<_>>().join(", ");
-            let periods = list(&mut pattern.unit_ticks.iter().map(u32::to_string));
-            let ends = list(&mut pattern.end_steps.iter().map(i64::to_string));
-            writeln!(
-                text,
-                "{:<12}  {:>9}  {periods:>13}  {ends}",
-                pattern.name,
+        Table::of(&self.patterns)
+            .left("pattern", 12, |pattern| &pattern.name)
+            .col("addresses", 0, |pattern| {
+                let [first, last] = pattern.addresses;
                 format!("{first}-{last}")
-            )?;
-        }
+            })
+            .col("T (ticks)", 13, |pattern| joined(&pattern.unit_ticks))
+            .left("end (steps)", 0, |pattern| joined(&pattern.end_steps))
+            .write(text)?;
         for pattern in &self.patterns {
             let scaled = pattern.scale.iter().zip(&pattern.scaling);
             for (ratio, axes) in scaled {
@@ -240,7 +228,7 @@ impl Report for Summary {
                     writeln!(
                         text,
                         "  {name}: {end} {:+.3} steps off, at most {:.3} pulses in a unit time",
-                        axis.drift_steps, axis.largest_deviation_pulses_per_unit
+                        axis.drift, axis.largest_deviation
                     )?;
                 }
             }

@@ -5,6 +5,7 @@ use super::packed::PackedWords;
 use super::words::{Table, Word};
 use crate::circuits::pulse_interpolator::{AXIS_NAMES, counts::pulses};
 use crate::settings::SettingError;
+use serde::Serialize;
 
 /// Ratio of two whole numbers above 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,11 +25,14 @@ pub struct Scaled {
 
 /// Deviation of a scaled table's axis from the ideal, in which a unit of Y pulses scaled by r has
 /// Y/r.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AxisScaling {
     /// Greatest deviation in one unit, in pulses.
+    #[serde(rename = "largest_deviation_pulses_per_unit")]
     pub largest_deviation: f64,
     /// Position at the end minus the ideal one, in steps.
+    #[serde(rename = "drift_steps")]
     pub drift: f64,
     /// Number of units whose half-period times the ratio is not a whole number and was rounded.
     pub rounded_units: usize,
