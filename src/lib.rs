@@ -254,6 +254,8 @@ pub mod conventions {
     pub struct IfYouKnowVerilog;
     #[doc = include_str!("../rtl_notes/conventions/memories.md")]
     pub struct Memories;
+    #[doc = include_str!("../rtl_notes/conventions/proofs.md")]
+    pub struct Proofs;
     #[doc = include_str!("../rtl_notes/conventions/running.md")]
     pub struct Running;
 }

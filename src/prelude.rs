@@ -1,6 +1,6 @@
 //! Everything needed to write and test a circuit.
 
-pub use crate::check::{Fault, Invariants, Outcome, Specified, reach, require};
+pub use crate::check::{Fault, Invariants, Outcome, Specified, prove, reach, require};
 pub use crate::hdl::Record as _;
 pub use crate::hdl::{
     Bit, Circuit, Cut, Edge, I, Image, Moment, Nothing, Part, Property, Ram, Seen, Settled, Shift,

@@ -1,4 +1,6 @@
 use super::Fault;
+use super::blamed::below;
+use super::invariant::stated;
 use crate::engine::Watch;
 use crate::hdl::{Circuit, Declaration, Value};
 use crate::netlist::Role;
@@ -96,8 +98,8 @@ fn stem(circuit: &str, invariant: &str) -> String {
 
 /// Returns the text above the table.
 fn report(tick: u64, invariant: &str, message: &str, signals: &[String]) -> String {
-    let signals = signals.join(", ");
-    format!("tick {tick}: {invariant}: {message} (signals: {signals})\n")
+    let signals = crate::sim::at_fault(signals);
+    format!("tick {tick}: {}{signals}\n", stated(invariant, message))
 }
 
 /// Returns the table of the last ticks, one signal per row. Signals at fault come first and are
@@ -123,11 +125,8 @@ fn table(model: &Elaborated, inputs: &[Vec<u64>], at_fault: &[String]) -> String
     let mut rows = Vec::new();
     for (index, leaf) in leaves.iter().enumerate() {
         let path = leaf.path();
-        let marked = at_fault.iter().any(|name| names(name, &path));
-        let path = path
-            .strip_prefix(model.name())
-            .and_then(|path| path.strip_prefix('.'))
-            .unwrap_or(&path);
+        let marked = at_fault.iter().any(|name| is_named(name, &path));
+        let path = below(model.name(), &path);
         let mut row = vec![format!("{} {path}", if marked { '*' } else { ' ' })];
         row.extend(columns.iter().map(|values| text(leaf, values[index])));
         row.push(match leaf.role {
@@ -147,10 +146,14 @@ fn table(model: &Elaborated, inputs: &[Vec<u64>], at_fault: &[String]) -> String
     table
 }
 
-/// True if `name` is `path`, or its end after a dot.
-fn names(name: &str, path: &str) -> bool {
-    path.strip_suffix(name)
-        .is_some_and(|rest| rest.is_empty() || rest.ends_with('.'))
+/// True if `name` is `path`, its end after a dot, or a memory whose word the path is.
+pub(super) fn is_named(name: &str, path: &str) -> bool {
+    let ends = |path: &str| {
+        let rest = path.strip_suffix(name);
+        rest.is_some_and(|rest| rest.is_empty() || rest.ends_with('.'))
+    };
+    let memory = path.rsplit_once('.').map(|(memory, _)| memory);
+    ends(path) || memory.is_some_and(ends)
 }
 
 /// Aligns rows: the first column to the left, the others to the right.

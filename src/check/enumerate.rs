@@ -1,3 +1,4 @@
+use super::UnknownSignal;
 use crate::engine::EngineError;
 use crate::hdl::{
     Circuit, Value,
@@ -23,12 +24,21 @@ pub enum CheckError {
     /// Too many bits to enumerate.
     #[error(transparent)]
     TooWide(#[from] TooWide),
+    /// Invariants name signals that the circuit does not have.
+    #[error("{}", lines(.0))]
+    Signals(Vec<UnknownSignal>),
     /// The circuit cannot be run.
     #[error(transparent)]
     Engine(#[from] EngineError),
 }
 
 crate::netlist::debug_as_display!(CheckError);
+
+/// Returns all errors, one per line.
+fn lines(errors: &[UnknownSignal]) -> String {
+    let lines: Vec<_> = errors.iter().map(UnknownSignal::to_string).collect();
+    lines.join("\n")
+}
 
 impl TooWide {
     /// Returns an error if there are more than `most` bits.

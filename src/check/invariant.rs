@@ -1,3 +1,4 @@
+use super::blamed;
 use crate::engine::{Engine, EngineError};
 use crate::hdl::{Circuit, Registers};
 use crate::sim::{Elaborated, Observer, RunError, Sample};
@@ -16,7 +17,8 @@ pub struct Fault {
 /// Result of an invariant.
 pub type Verdict = Result<(), Fault>;
 
-/// Returns `Ok` if `holds` is true, else a fault with these signals and `message`.
+/// Returns `Ok` if `holds` is true, else a fault with these signals and `message`, which may be
+/// empty.
 ///
 /// # Errors
 /// Returns a [`Fault`] if `holds` is false.
@@ -25,6 +27,7 @@ pub fn require<const N: usize>(
     signals: [&str; N],
     message: impl FnOnce() -> String,
 ) -> Verdict {
+    blamed::note(&signals);
     if holds {
         return Ok(());
     }
@@ -179,6 +182,32 @@ impl<'f, C: Circuit> Invariants<'f, C> {
     }
 }
 
+impl<C: Circuit> Invariants<'_, C> {
+    /// Returns the signals that the invariants name in this tick, each with its invariant.
+    pub(super) fn blamed(&self, now: &Sample<'_, C>, next: &Registers<C>) -> Vec<(String, String)> {
+        let own = self.names.own.iter().map(|signals| {
+            let signals = signals.iter().map(|&signal| signal.to_owned());
+            signals.collect()
+        });
+        let others = self.others.iter().map(|property| {
+            blamed::during(|| {
+                // The search judges; here only the names count.
+                let _ = match property {
+                    Holds::Always(holds) => holds(now),
+                    Holds::Step(holds) => holds(now, next),
+                };
+            })
+        });
+        let signals = own.chain(others);
+        let all = self.names.all.iter().zip(signals);
+        all.flat_map(|(name, signals): (_, Vec<String>)| {
+            let pairs = signals.into_iter();
+            pairs.map(move |signal| (name.clone(), signal))
+        })
+        .collect()
+    }
+}
+
 impl<C: Circuit> Default for Invariants<'_, C> {
     fn default() -> Self {
         Invariants::new()
@@ -188,6 +217,14 @@ impl<C: Circuit> Default for Invariants<'_, C> {
 impl<C: Circuit> fmt::Debug for Invariants<'_, C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_list().entries(self.names()).finish()
+    }
+}
+
+/// Returns the name of an invariant, with a message if there is one.
+pub(super) fn stated(name: &str, message: &str) -> String {
+    match message.is_empty() {
+        true => name.to_owned(),
+        false => format!("{name}: {message}"),
     }
 }
 
@@ -218,7 +255,7 @@ impl<C: Circuit> Observer<C> for Monitor<'_, C> {
             Err((name, fault)) => Err(RunError::Violation {
                 tick: now.tick,
                 signals: fault.signals,
-                message: format!("{name}: {}", fault.message),
+                message: stated(name, &fault.message),
             }),
         }
     }

@@ -56,6 +56,7 @@
 //! # Ok::<(), motion_rtl::check::CheckError>(())
 //! ```
 
+mod blamed;
 mod counterexample;
 mod coverage;
 mod drive;
@@ -74,6 +75,7 @@ mod stimulus;
 mod sweep;
 mod visited;
 
+pub use blamed::UnknownSignal;
 pub use counterexample::Counterexample;
 pub use coverage::{Coverage, Untoggled};
 pub use drive::{Drive, Driven, drive};
@@ -81,7 +83,7 @@ pub use enumerate::{CheckError, Random, TooWide, all};
 pub use invariant::{Fault, Invariants, Monitor, Verdict, require};
 pub use lockstep::{Lockstep, LockstepError};
 pub use pair::{Pair, PairIn, Sides};
-pub use reach::{Outcome, Progress, Proof, Reach, reach};
+pub use reach::{Outcome, Progress, Proof, Reach, prove, reach};
 pub use specified::Specified;
 pub use stimulus::Stimulus;
 pub use sweep::{Law, Sweep, Swept, cases, sweep};

@@ -3,7 +3,7 @@ use super::search::Report;
 use super::searching::{Ended, Judge, Next, Searching};
 use super::visited::Visited;
 use super::{CheckError, Fault, TooWide};
-use super::{Counterexample, Invariants};
+use super::{Counterexample, Invariants, Specified};
 use crate::engine::Engine;
 use crate::hdl::{
     self, Circuit, Registers, Value,
@@ -114,7 +114,7 @@ type Assume<'a, C> = dyn Fn(&Registers<C>, &<C as Circuit>::In<Value>) -> bool +
 #[must_use = "nothing is searched before it runs"]
 pub struct Reach<'a, C: Circuit> {
     circuit: &'a C,
-    invariants: &'a Invariants<'a, C>,
+    invariants: Stated<'a, C>,
     only: Option<Box<Only<'a, C>>>,
     assume: Vec<Box<Assume<'a, C>>>,
     progress: Option<Box<Report<'a>>>,
@@ -124,27 +124,70 @@ pub struct Reach<'a, C: Circuit> {
     bitmap_bits: usize,
 }
 
+/// Invariants of a search.
+enum Stated<'a, C: Circuit> {
+    Given(&'a Invariants<'a, C>),
+    Own(Invariants<'a, C>),
+}
+
+impl<'a, C: Circuit> Stated<'a, C> {
+    fn all(&self) -> &Invariants<'a, C> {
+        match self {
+            Stated::Given(invariants) => invariants,
+            Stated::Own(invariants) => invariants,
+        }
+    }
+}
+
 /// Prepares a breadth-first search through every state that `circuit` reaches from power-on under
 /// every input. [`run`](Reach::run) returns a proof of the invariants or a shortest
 /// counterexample.
 ///
-/// The outcome is the same in every run.
+/// The outcome is the same in every run. The rules for inputs in
+/// [`Specified`] do not count here; [`prove`] applies them.
 #[must_use = "nothing is searched before it runs"]
 pub fn reach<'a, C: Circuit>(circuit: &'a C, invariants: &'a Invariants<'a, C>) -> Reach<'a, C> {
-    Reach {
-        circuit,
-        invariants,
-        only: None,
-        assume: Vec::new(),
-        progress: None,
-        limit: 1 << 26,
-        transitions: u64::MAX,
-        model: None,
-        bitmap_bits: 32,
-    }
+    Reach::of(circuit, Stated::Given(invariants))
+}
+
+/// Prepares the proof of a circuit: a search that checks its
+/// [`invariants`](Specified::invariants), with the inputs that its
+/// [`applies`](Specified::applies) and [`assumes`](Specified::assumes) allow.
+///
+/// ```
+/// use motion_rtl::circuits::blocks::EnableCounter;
+/// use motion_rtl::check::{Outcome, prove};
+///
+/// let circuit = EnableCounter { width: 3 };
+/// match prove(&circuit).limit(1000).run()? {
+///     Outcome::Proof(proof) => assert_eq!(proof.states, 7),
+///     Outcome::Counterexample(found) => panic!("{found}"),
+///     Outcome::Limit(progress) => panic!("undecided after {} states", progress.states),
+/// }
+/// # Ok::<(), motion_rtl::check::CheckError>(())
+/// ```
+#[must_use = "nothing is searched before it runs"]
+pub fn prove<C: Specified>(circuit: &C) -> Reach<'_, C> {
+    Reach::of(circuit, Stated::Own(circuit.invariants()))
+        .inputs(|i| circuit.applies(i))
+        .assume(|q, i| circuit.assumes(q, i))
 }
 
 impl<'a, C: Circuit> Reach<'a, C> {
+    fn of(circuit: &'a C, invariants: Stated<'a, C>) -> Self {
+        Reach {
+            circuit,
+            invariants,
+            only: None,
+            assume: Vec::new(),
+            progress: None,
+            limit: 1 << 26,
+            transitions: u64::MAX,
+            model: None,
+            bitmap_bits: 32,
+        }
+    }
+
     /// Restricts the inputs, whatever the state. Excluded inputs are removed once and cost nothing
     /// in each state, unlike those that [`assume`](Self::assume) excludes.
     pub fn inputs(mut self, possible: impl Fn(&C::In<Value>) -> bool + 'a) -> Self {
@@ -195,8 +238,9 @@ impl<'a, C: Circuit> Reach<'a, C> {
     /// once.
     ///
     /// # Errors
-    /// Returns an error if the registers have more than 64 bits or the inputs more than 20, or the
-    /// circuit cannot be elaborated.
+    /// Returns an error if the registers have more than 64 bits or the inputs more than 20, if the
+    /// circuit cannot be elaborated, or if an invariant names a signal that does not exist. Names
+    /// are read in the first tick.
     pub fn run(self) -> Result<Outcome<C>, CheckError> {
         self.search(false)
     }
@@ -204,8 +248,9 @@ impl<'a, C: Circuit> Reach<'a, C> {
     /// Searches transition by transition in simulation; the outcome is the same.
     ///
     /// # Errors
-    /// Returns an error if the registers have more than 64 bits or the inputs more than 20, or the
-    /// circuit cannot be elaborated.
+    /// Returns an error if the registers have more than 64 bits or the inputs more than 20, if the
+    /// circuit cannot be elaborated, or if an invariant names a signal that does not exist. Names
+    /// are read in the first tick.
     pub fn run_simulated(self) -> Result<Outcome<C>, CheckError> {
         self.search(true)
     }
@@ -244,13 +289,14 @@ impl<'a, C: Circuit> Reach<'a, C> {
             ports,
             judge: &judge,
             assumes: !self.assume.is_empty(),
-            looks_ahead: self.invariants.look_ahead(),
-            own: self.invariants.own(),
+            looks_ahead: self.invariants.all().look_ahead(),
+            own: self.invariants.all().own(),
         };
         let visited = Visited::new(bits, self.bitmap_bits);
         let limits = (self.limit, self.transitions);
         Ok(
             match searching.run(&model, visited, (limits, progress), simulated) {
+                Ended::Unknown(signals) => return Err(CheckError::Signals(signals)),
                 Ended::Proof(proof) => Outcome::Proof(proof),
                 Ended::Limit(progress) => Outcome::Limit(progress),
                 Ended::Fault(way, name, fault) => {
@@ -321,7 +367,7 @@ impl<C: Circuit> Judge for Of<'_, '_, C> {
         let given = (Some(&self.inputs[input]), Some(here));
         let checked = |next: Option<&Registers<C>>| {
             Sample::show_given(depth, &self.known, engine, given, |now| {
-                let checked = self.reach.invariants.check(now, next);
+                let checked = self.reach.invariants.all().check(now, next);
                 checked.map_err(|(name, fault)| (name.to_owned(), fault))
             })
         };
@@ -340,13 +386,22 @@ impl<C: Circuit> Judge for Of<'_, '_, C> {
             }
         }
     }
+
+    fn blamed(&self, engine: &Engine, of: (u64, usize), after: &Engine) -> Vec<(String, String)> {
+        let here = registers_of(self.reach.circuit, of.0);
+        let given = (Some(&self.inputs[of.1]), Some(&here));
+        let next = all_registers(self.reach.circuit, after);
+        Sample::show_given(0, &self.known, engine, given, |now| {
+            self.reach.invariants.all().blamed(now, &next)
+        })
+    }
 }
 
 impl<C: Circuit> fmt::Debug for Reach<'_, C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Reach")
             .field("circuit", &C::NAME)
-            .field("invariants", &self.invariants)
+            .field("invariants", self.invariants.all())
             .field("limit", &self.limit)
             .field("bitmap_bits", &self.bitmap_bits)
             .finish_non_exhaustive()

@@ -1,6 +1,7 @@
 //! Search through the states of a circuit, independent of its type.
 
 use super::Fault;
+use super::blamed::{self, UnknownSignal};
 use super::reach::{Progress, Proof};
 use super::search::{Report, Search};
 use super::visited::Visited;
@@ -21,6 +22,8 @@ pub(super) trait Judge {
         of: (u64, usize),
         next: Next<'_>,
     ) -> Result<(), (String, Fault)>;
+    /// Returns the signals that the invariants name in a settled tick, each with its invariant.
+    fn blamed(&self, engine: &Engine, of: (u64, usize), after: &Engine) -> Vec<(String, String)>;
 }
 
 /// Registers after an edge, if an invariant reads them.
@@ -67,10 +70,29 @@ impl Searching<'_> {
             states,
             state: None,
         };
+        let unknown = blamed::unknown(model, self.blamed(&mut one));
+        if !unknown.is_empty() {
+            return Ended::Unknown(unknown);
+        }
         match &tick {
             Some(tick) => self.side_by_side(search, tick, &mut one),
             None => self.one_by_one(search, &mut one),
         }
+    }
+
+    /// Returns the signals that the invariants name in the first transition.
+    fn blamed(&self, one: &mut One<'_>) -> Vec<(String, String)> {
+        let state = one.states.pack(&one.engine);
+        let mut inputs = 0..self.ports.len();
+        let possible = |index: &usize| !self.assumes || self.judge.possible(state, *index);
+        let Some(index) = inputs.find(possible) else {
+            return Vec::new();
+        };
+        one.engine.drive_all(&self.ports[index]);
+        one.engine.settle();
+        let mut after = one.engine.clone();
+        after.edge();
+        self.judge.blamed(&one.engine, (state, index), &after)
     }
 
     /// Searches transition by transition.
@@ -182,6 +204,7 @@ pub(super) enum Ended {
     Proof(Proof),
     Limit(Progress),
     Fault(Vec<usize>, String, Fault),
+    Unknown(Vec<UnknownSignal>),
 }
 
 /// Evaluation of single transitions.

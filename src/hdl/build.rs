@@ -1,5 +1,6 @@
 //! The module under construction, and the functions that add nodes to it.
 
+use super::describe::describe;
 use super::record::MemoryShape;
 use crate::netlist::{
     Assertion, BIT, Child, Kind, Memory, Mistake, Module, Node, Operator, Parameter, Port,
@@ -7,6 +8,7 @@ use crate::netlist::{
 };
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::mem;
 use std::panic::Location;
 
@@ -60,6 +62,10 @@ pub(super) struct Builder {
     pub assertions: Vec<Assertion>,
     /// Indices of the ROMs among the memories.
     pub roms: Vec<usize>,
+    /// Parts that mistakes name, by index.
+    pub involved: BTreeSet<usize>,
+    /// Nodes that a helper made: a description of the result, and the helper's operand.
+    pub helpers: FxHashMap<Id, (&'static str, Id)>,
 }
 
 /// Declared part of the circuit under construction.
@@ -69,6 +75,8 @@ pub(super) struct Declared {
     pub registers: std::ops::Range<usize>,
     /// Index of the instance, once the part is settled.
     pub instance: Option<usize>,
+    /// Prints the circuit with its fields.
+    pub circuit: Box<dyn Fn() -> String>,
 }
 
 /// Settled part.
@@ -170,7 +178,7 @@ pub(super) fn number(value: i128, shape: Shape) -> Id {
 pub(super) fn number_beside(value: i128, beside: Id) -> Id {
     let shape = shape(beside);
     if let Err(wrong) = fits(value, shape) {
-        let name = builder(|builder| builder.describe(beside));
+        let name = describe(beside);
         mistake(here(), format!("beside {name}, the constant {wrong}"));
     }
     constant(value as u64, shape)
@@ -245,7 +253,7 @@ pub(super) fn fit(id: Id, wanted: Shape, what: &str) -> Id {
     if found.width == wanted.width {
         return id;
     }
-    let name = builder(|builder| builder.describe(id));
+    let name = describe(id);
     let (found, wanted_bits) = (bits(found.width), bits(wanted.width));
     mistake(
         here(),
@@ -294,6 +302,15 @@ pub(super) fn parameter(name: &'static str, value: u64, shape: Shape) -> Id {
     node(Node::Parameter(index), shape)
 }
 
+/// Returns the result of a helper, which mistakes call `what` of `operand`, or as the operand if
+/// `what` is empty.
+pub(super) fn called(id: Id, what: &'static str, operand: Id) -> Id {
+    builder(|builder| {
+        builder.helpers.entry(id).or_insert((what, operand));
+    });
+    id
+}
+
 /// Returns the ROM with these words, or adds it.
 pub(super) fn rom(width: usize, words: Vec<u64>) -> usize {
     builder(|builder| {
@@ -332,6 +349,12 @@ pub(super) fn masked(value: u64, shape: Shape) -> u64 {
     value & (u64::MAX >> (64 - shape.width.clamp(1, 64)))
 }
 
+/// Joins scopes and the name below them by dots, as in the waves.
+pub(super) fn dotted(scopes: &[String], name: &str) -> String {
+    let scopes = scopes.iter().map(|scope| format!("{scope}."));
+    scopes.chain([name.to_owned()]).collect()
+}
+
 /// Joins the scopes that are no instances with the name below them.
 pub(super) fn flat(scopes: &[String], name: &str) -> String {
     scopes
@@ -344,39 +367,6 @@ pub(super) fn flat(scopes: &[String], name: &str) -> String {
 impl Builder {
     pub fn shape(&self, id: Id) -> Shape {
         self.nodes.get(id).map_or(BIT, |(_, shape)| *shape)
-    }
-
-    /// Returns the name of a node as a reader of the circuit knows it.
-    pub fn describe(&self, id: Id) -> String {
-        match self.nodes.get(id).map(|(node, _)| *node) {
-            Some(Node::Signal(signal)) => match self.signals.get(signal) {
-                Some(signal) => format!("`{}`", signal.name),
-                None => "a register".to_owned(),
-            },
-            Some(Node::Constant(value)) => format!("the constant {value}"),
-            Some(Node::Parameter(index)) => match self.parameters.get(index) {
-                Some((parameter, _)) => format!("`{}`", parameter.name),
-                None => "a parameter".to_owned(),
-            },
-            Some(Node::Port { instance, .. }) => match self.instances.get(instance) {
-                Some(instance) => format!("a port of `{}`", instance.child.name),
-                None => "a port".to_owned(),
-            },
-            Some(Node::Binary(operator, ..)) => match operator {
-                Operator::Add => "a sum",
-                Operator::Subtract => "a difference",
-                Operator::Multiply => "a product",
-                Operator::And | Operator::Or | Operator::Xor => "a bitwise operation",
-                Operator::Equal | Operator::Below => "a comparison",
-            }
-            .to_owned(),
-            Some(Node::Mux(..)) => "a choice".to_owned(),
-            Some(Node::Read(memory, _)) => match self.memories.get(memory) {
-                Some(memory) => format!("a word of `{}`", memory.name),
-                None => "a word".to_owned(),
-            },
-            _ => "an operand".to_owned(),
-        }
     }
 
     /// Returns the name of a memory.
@@ -497,15 +487,16 @@ impl Builder {
     }
 }
 
-/// Returns a signal without a driver.
+/// Returns a signal without a driver, by its names in Verilog and in the waves.
 pub(super) fn signal(
-    name: String,
+    (name, path): (String, String),
     field: &'static crate::netlist::Field,
     role: Role,
     shape: Shape,
 ) -> Signal {
     Signal {
         name,
+        path,
         field,
         role,
         shape,

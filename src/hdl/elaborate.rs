@@ -6,12 +6,14 @@ use super::leaves::Leaves;
 use super::memory::{State, Written};
 use super::mutation;
 use super::names;
-use super::part::{Counted, pair};
+use super::part::{Counted, Place, pair};
 use super::property;
 use super::record::{Record, Walk};
 use super::view::{self, Edge, Shapes, Wire};
 use super::{Circuit, More, Nothing};
-use crate::netlist::{Design, Id, Module, Port, Register, Role, Setting, Site, Value, Wrong};
+use crate::netlist::{
+    Design, Id, Mistake, Module, Port, Register, Role, Setting, Site, Value, Wrong,
+};
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -104,6 +106,10 @@ fn end(name: &str, about: &'static str, nets: Nets) -> (usize, Vec<Setting>) {
     elaboration(|elaboration| {
         let builder = elaboration.open.pop().unwrap_or_default();
         let (path, sites) = (builder.path.clone(), builder.instance_sites());
+        for (site, what) in builder.parts_involved() {
+            let path = path.clone();
+            elaboration.mistakes.push(Mistake { site, path, what });
+        }
         let (module, settings) = builder.finish(name, about, nets);
         // The ports of a part with mistakes are unknown.
         let hidden = match elaboration.mistakes.is_empty() {
@@ -112,7 +118,7 @@ fn end(name: &str, about: &'static str, nets: Nets) -> (usize, Vec<Setting>) {
         };
         for (instance, signal) in hidden {
             let (name, site) = &sites[instance];
-            elaboration.mistakes.push(crate::netlist::Mistake {
+            elaboration.mistakes.push(Mistake {
                 site: *site,
                 path: path.clone(),
                 what: format!("`{name}.{signal}` is read, but is no port: it is not declared pub"),
@@ -211,12 +217,12 @@ fn nets(wanted: Counted, given: Counted, site: Site) -> Nets {
         }
     });
     nets.leaves = vec![None; nets.nodes.len()];
-    let nodes = pair(&given, &wanted, site, "net");
+    let nodes = pair(&given, &wanted, site, Place::Net);
     for (leaf, id) in wanted.leaves.into_iter().zip(nodes) {
         if let Err(wrong) = build::is_word(leaf.shape) {
-            mistake(site, format!("`{}` {wrong}", leaf.name));
+            mistake(site, format!("`{}` {wrong}", leaf.path));
         }
-        let mut net = signal(leaf.name, leaf.field, Role::Net, leaf.shape);
+        let mut net = signal((leaf.name, leaf.path), leaf.field, Role::Net, leaf.shape);
         net.driver = Some(id);
         let net = builder(|builder| builder.signal(net));
         nets.leaves.push(Some(net));
@@ -227,7 +233,7 @@ fn nets(wanted: Counted, given: Counted, site: Site) -> Nets {
 
 /// Connects registers and memories to their values after the edge.
 fn drive(wanted: &Counted, given: Counted, site: Site) {
-    let nodes = pair(&given, wanted, site, "register");
+    let nodes = pair(&given, wanted, site, Place::Register);
     let mistakes: Vec<String> = builder(|builder| {
         let own = builder.registers[..builder.own].to_vec();
         let (mut nodes, mut memories) = (nodes.into_iter(), given.memories.into_iter());

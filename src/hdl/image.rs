@@ -1,7 +1,19 @@
-//! Contents of memories as a list of words, as configurations of circuits have them.
+//! Contents of memories in text: as a list of words in configurations of circuits, by widths in
+//! `Debug`.
 
 use super::memory::Image;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+
+/// The widths without the words, which may be many.
+impl fmt::Debug for Image {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Image")
+            .field("address", &self.address())
+            .field("width", &self.width())
+            .finish_non_exhaustive()
+    }
+}
 
 /// The words from address 0 up, without the zeros at the end.
 impl Serialize for Image {

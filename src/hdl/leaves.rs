@@ -1,7 +1,7 @@
 //! Conversion of the leaves of a circuit's records into nodes.
 
 use super::Path;
-use super::build::{self, builder, flat, masked, mistake, node, signal};
+use super::build::{self, builder, dotted, flat, masked, mistake, node, signal};
 use super::memory::Contents;
 use super::record::{Cells, MemoryShape, Source};
 use crate::netlist::{Field, Id, Memory, Node, Port, Register, Role, Shape};
@@ -19,10 +19,11 @@ impl Leaves {
         builder(|builder| builder.scope = scope);
     }
 
-    /// Returns the name of the next leaf in its module.
-    fn name(&mut self, field: &'static Field) -> String {
+    /// Returns the names of the next leaf in its module and in the waves of its circuit.
+    fn names(&mut self, field: &'static Field) -> (String, String) {
         let name = self.path.name(field);
-        flat(self.path.scopes(), &name)
+        let scopes = self.path.scopes();
+        (flat(scopes, &name), dotted(scopes, &name))
     }
 }
 
@@ -53,21 +54,21 @@ impl Source for Leaves {
     }
 
     fn word(&mut self, field: &'static Field, shape: Shape, power_on: i128) -> u64 {
-        let name = self.name(field);
+        let (name, path) = self.names(field);
         let role = self.path.role();
         let shape = match build::is_word(shape) {
             Ok(()) => shape,
             Err(wrong) => {
-                unmade(format!("`{name}` {wrong}"));
+                unmade(format!("`{path}` {wrong}"));
                 build::nearest(shape)
             }
         };
         let made = !builder(|builder| builder.unmade);
         if let (Role::Register, true, Err(wrong)) = (role, made, build::fits(power_on, shape)) {
-            object(format!("`{name}` at power-on: {wrong}"));
+            object(format!("`{path}` at power-on: {wrong}"));
         }
         builder(|builder| {
-            let mut made = signal(name, field, role, shape);
+            let mut made = signal((name, path), field, role, shape);
             if role == Role::Register {
                 made.power_on = masked(power_on as u64, shape);
                 let register = Register::Signal(builder.signals.len());
@@ -86,12 +87,12 @@ impl Source for Leaves {
         shape: MemoryShape,
         contents: &dyn Fn() -> Contents,
     ) -> Cells {
-        let name = self.name(field);
+        let (name, path) = self.names(field);
         let contents = contents();
         let most = 1 << 24;
         if !(1..=64).contains(&shape.width) || !(1..=most).contains(&shape.words) {
             unmade(format!(
-                "memory `{name}` has {} words of {}; there are 1 to {most} words of 1 to 64 bits",
+                "memory `{path}` has {} words of {}; there are 1 to {most} words of 1 to 64 bits",
                 shape.words,
                 build::bits(shape.width)
             ));
@@ -104,7 +105,7 @@ impl Source for Leaves {
                 None => format!("{} stages", shape.words),
             };
             unmade(format!(
-                "memory `{name}` has {words} and words of {}, what it holds at power-on has {} and {}",
+                "memory `{path}` has {words} and words of {}, what it holds at power-on has {} and {}",
                 build::bits(shape.width),
                 build::bits(address),
                 build::bits(width)
@@ -113,7 +114,7 @@ impl Source for Leaves {
         if let Some((site, wrong)) = contents.wrong()
             && !builder(|builder| builder.of_part)
         {
-            mistake(site, format!("memory `{name}` at power-on: {wrong}"));
+            mistake(site, format!("memory `{path}` at power-on: {wrong}"));
         }
         let shape = MemoryShape {
             words: shape.words.clamp(1, most),

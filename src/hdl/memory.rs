@@ -54,7 +54,9 @@ impl Ram {
     /// else `held`. Block RAM has this form.
     #[track_caller]
     pub fn read_when(&self, enable: Bit, address: U, held: U) -> U {
-        enable.mux(self.read(address), held)
+        let read = self.read(address);
+        let next = enable.mux(read, held);
+        U(build::called(next.0, "", read.0))
     }
 
     /// Writes `data` at `address` if `enable` is high; returns the memory after the edge.
@@ -130,7 +132,10 @@ impl Shift {
         // A tap that can select more stages than there are reads zero for those.
         let stages = self.stages as u64;
         match stages.checked_shr(tap.width() as u32).unwrap_or(0) {
-            0 => tap.below(stages).mux(stage, self.zero()),
+            0 => {
+                let known = tap.below(stages).mux(stage, self.zero());
+                U(build::called(known.0, "", stage.0))
+            }
             _ => stage,
         }
     }
@@ -223,7 +228,7 @@ impl Contents {
 ///
 /// Words and addresses that do not fit are a mistake of the circuit that has the image: see
 /// [`elaborate`](super::elaborate()).
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct Image {
     address: usize,
     width: usize,

@@ -12,6 +12,7 @@
 
 mod build;
 mod declare;
+mod describe;
 mod elaborate;
 mod image;
 mod keywords;

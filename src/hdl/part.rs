@@ -2,6 +2,7 @@
 
 use super::Path;
 use super::build::{self, Declared, Instance, builder, elaboration, here, node};
+use super::describe::describe;
 use super::leaves::Nodes;
 use super::record::{Pass, Record, Sink, Source, Walk};
 use super::view::{self, Seen, Shapes, Wire};
@@ -38,7 +39,8 @@ impl<C: Circuit> Part<C> {
         if circuit.objection().is_none() {
             C::Parts::<Shapes>::make(circuit, view::role(Role::Register), source);
         }
-        let part = declared(first);
+        let shown = circuit.clone();
+        let part = declared(first, Box::new(move || format!("{shown:?}")));
         source.leave();
         Part {
             circuit: circuit.clone(),
@@ -52,7 +54,7 @@ impl<C: Circuit> Part<C> {
     #[track_caller]
     pub fn settle(self, i: C::In<Wire>) -> Settled<C> {
         let site = here();
-        let inputs = drive::<C>(&self.circuit, &i, site);
+        let inputs = drive::<C>(&self.circuit, &i, site, self.part);
         let made = self.circuit.make_module(path(self.part), &mut |_| {});
         let nets = instance(self.part, made, inputs, site);
         let w = C::Net::make(
@@ -77,7 +79,7 @@ fn begin() -> usize {
 
 /// Ends the registers of a part that begin at `first`; returns its index.
 #[inline(never)]
-fn declared(first: usize) -> usize {
+fn declared(first: usize, circuit: Box<dyn Fn() -> String>) -> usize {
     builder(|builder| {
         builder.of_part = false;
         builder.parts.push(Declared {
@@ -85,6 +87,7 @@ fn declared(first: usize) -> usize {
             name: std::mem::take(&mut builder.scope),
             registers: first..builder.registers.len(),
             instance: None,
+            circuit,
         });
         builder.parts.len() - 1
     })
@@ -152,12 +155,26 @@ pub fn settle_each<C: Circuit>(
 }
 
 /// Returns the nodes that drive the input ports, each as wide as its port.
-fn drive<C: Circuit>(circuit: &C, i: &C::In<Wire>, site: crate::netlist::Site) -> Vec<build::Id> {
+fn drive<C: Circuit>(
+    circuit: &C,
+    i: &C::In<Wire>,
+    site: crate::netlist::Site,
+    part: usize,
+) -> Vec<build::Id> {
     let mut wanted = Counted::default();
     circuit.make_shapes(Role::Input, &mut wanted);
     let mut given = Counted::default();
     i.visit(view::role(Role::Input), &mut given);
-    pair(&given, &wanted, site, "port")
+    pair(&given, &wanted, site, Place::Port(part))
+}
+
+/// Record whose leaves are given nodes.
+#[derive(Clone, Copy)]
+pub(super) enum Place {
+    Net,
+    Register,
+    /// Input ports of a part, by its index.
+    Port(usize),
 }
 
 /// Returns the nodes of the leaves of a record, each as wide as declared.
@@ -165,11 +182,16 @@ pub(super) fn pair(
     given: &Counted,
     wanted: &Counted,
     site: crate::netlist::Site,
-    what: &str,
+    place: Place,
 ) -> Vec<build::Id> {
+    let (what, scope) = match place {
+        Place::Net => ("net", String::new()),
+        Place::Register => ("register", String::new()),
+        Place::Port(part) => builder(|builder| ("port", format!("{}.", builder.parts[part].name))),
+    };
     if given.leaves.len() != wanted.leaves.len() {
         let names = |leaves: &Counted| {
-            let mut names: Vec<_> = leaves.leaves.iter().map(|leaf| leaf.name.clone()).collect();
+            let mut names: Vec<_> = leaves.leaves.iter().map(|leaf| leaf.path.clone()).collect();
             names.reverse();
             names
         };
@@ -179,8 +201,8 @@ pub(super) fn pair(
             asked.pop();
         }
         let what = match (found.pop(), asked.pop()) {
-            (Some(found), None) => format!("{what} `{found}` is not there"),
-            (_, Some(asked)) => format!("{what} `{asked}` is given nothing"),
+            (Some(found), None) => format!("{what} `{scope}{found}` is not there"),
+            (_, Some(asked)) => format!("{what} `{scope}{asked}` is given nothing"),
             (None, None) => format!("{what}s do not match"),
         };
         build::mistake(site, what);
@@ -194,17 +216,20 @@ pub(super) fn pair(
             if found.width == wanted.shape.width || build::is_word(wanted.shape).is_err() {
                 return id;
             }
-            let from = builder(|builder| builder.describe(id));
-            let site = match what {
-                "port" => site,
-                _ => builder(|builder| builder.site_of(id)),
+            let from = describe(id);
+            let site = match place {
+                Place::Port(part) => {
+                    builder(|builder| builder.involved.insert(part));
+                    site
+                }
+                Place::Net | Place::Register => builder(|builder| builder.site_of(id)),
             };
             let (wanted_bits, found) = (build::bits(wanted.shape.width), build::bits(found.width));
             build::mistake(
                 site,
                 format!(
-                    "{what} `{}` has {wanted_bits}, {from} has {found}",
-                    wanted.name
+                    "{what} `{scope}{}` has {wanted_bits}, {from} has {found}",
+                    wanted.path
                 ),
             );
             build::resize(id, wanted.shape)
@@ -222,21 +247,26 @@ pub(crate) struct Counted {
 
 pub(crate) struct Leaf {
     pub name: String,
+    /// Name in the waves.
+    pub path: String,
     pub field: &'static Field,
     pub shape: Shape,
     pub token: u64,
 }
 
 impl Counted {
-    fn name(&mut self, field: &'static Field) -> String {
+    /// Returns the names of the next leaf in its module and in the waves of its circuit.
+    fn names(&mut self, field: &'static Field) -> (String, String) {
         let name = self.path.name(field);
-        build::flat(self.path.scopes(), &name)
+        let scopes = self.path.scopes();
+        (build::flat(scopes, &name), build::dotted(scopes, &name))
     }
 
     fn push(&mut self, field: &'static Field, shape: Shape, token: u64) {
-        let name = self.name(field);
+        let (name, path) = self.names(field);
         self.leaves.push(Leaf {
             name,
+            path,
             field,
             shape,
             token,
@@ -272,8 +302,8 @@ impl Source for Counted {
         shape: super::MemoryShape,
         _: &dyn Fn() -> super::Contents,
     ) -> super::Cells {
-        let name = self.name(field);
-        self.memories.push((name, Written::default()));
+        let (_, path) = self.names(field);
+        self.memories.push((path, Written::default()));
         super::Cells::at(0, shape)
     }
 }
@@ -292,8 +322,8 @@ impl Sink for Counted {
         self.push(field, crate::netlist::BIT, token);
     }
     fn memory(&mut self, field: &'static Field, written: Written) {
-        let name = self.name(field);
-        self.memories.push((name, written));
+        let (_, path) = self.names(field);
+        self.memories.push((path, written));
     }
 }
 

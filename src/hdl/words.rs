@@ -1,6 +1,7 @@
 //! Words while a circuit is elaborated: handles to nodes of its netlist.
 
-use super::build::{self, Id, bits, builder, constant, here, mistake, node, resize};
+use super::build::{self, Id, bits, called, constant, here, mistake, node, resize};
+use super::describe::describe;
 use crate::netlist::{BIT, Node, Operator, Shape, signed, unsigned};
 use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
 
@@ -178,7 +179,7 @@ fn same(a: Id, b: Id, what: &str) -> Id {
     if left.width == right.width {
         return b;
     }
-    let (first, second) = builder(|builder| (builder.describe(a), builder.describe(b)));
+    let (first, second) = (describe(a), describe(b));
     let (left_bits, right_bits) = (bits(left.width), bits(right.width));
     mistake(
         here(),
@@ -191,7 +192,7 @@ fn same(a: Id, b: Id, what: &str) -> Id {
 #[cold]
 #[track_caller]
 fn not_there(what: String, word: Id) {
-    let (name, width) = builder(|builder| (builder.describe(word), builder.shape(word).width));
+    let (name, width) = (describe(word), build::shape(word).width);
     mistake(
         here(),
         format!("{what} of {name}, which has {}", bits(width)),
@@ -525,13 +526,15 @@ impl I {
     /// Returns the negated word if `negative` is high, else the word itself.
     #[track_caller]
     pub fn negated_by(self, negative: Bit) -> Self {
-        negative.mux(-self, self)
+        let chosen = negative.mux(-self, self);
+        I(called(chosen.0, "the conditional negative", self.0))
     }
 
     /// Returns the absolute value as an unsigned word; exact for the most negative word too.
     #[track_caller]
     pub fn magnitude(self) -> U {
-        self.is_negative().mux((-self).unsigned(), self.unsigned())
+        let chosen = self.is_negative().mux((-self).unsigned(), self.unsigned());
+        U(called(chosen.0, "the magnitude", self.0))
     }
 
     /// Returns the same bits read as unsigned.

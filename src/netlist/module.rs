@@ -35,8 +35,10 @@ pub struct Module {
 /// Signal of a module.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Signal {
-    /// Name.
+    /// Name in Verilog.
     pub name: String,
+    /// Name in the waves: scopes below the circuit and name, joined by dots.
+    pub path: String,
     /// Declaration in `signals!`.
     pub field: &'static Field,
     /// Input port, register or net.

@@ -48,7 +48,7 @@ impl Module {
             let signal = inner.map(|inner| &modules[child.module].signals[inner]);
             match signal {
                 Some(signal) if signal.is_port() => {}
-                Some(signal) => hidden.push((instance, signal.name.clone())),
+                Some(signal) => hidden.push((instance, signal.path.clone())),
                 None => hidden.push((instance, "a signal further inside".to_owned())),
             }
         }

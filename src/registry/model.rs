@@ -1,6 +1,6 @@
 //! Circuits whose types are forgotten.
 
-use crate::check::{CheckError, Drive, Driven, Outcome, Progress, Proof, Specified, reach};
+use crate::check::{CheckError, Drive, Driven, Outcome, Progress, Proof, Specified, prove};
 use crate::engine::EngineError;
 use crate::hdl::{Circuit, Declarations};
 use crate::sim::{Elaborated, RunError};
@@ -167,10 +167,7 @@ impl<C: Specified> AnyCircuit for C {
         search: &ProofSearch<'_>,
         progress: &mut dyn FnMut(&Progress),
     ) -> Result<Verdict, CheckError> {
-        let invariants = Specified::invariants(self);
-        let mut reach = reach(self, &invariants)
-            .inputs(|i| self.applies(i))
-            .assume(|q, i| self.assumes(q, i))
+        let mut reach = prove(self)
             .limit(search.states)
             .transitions(search.transitions)
             .progress(progress);

@@ -15,6 +15,7 @@ mod simulator;
 pub use beside::{Beside, Without};
 pub use cost::Cost;
 pub use elaborated::{Described, Elaborated};
+pub(crate) use observe::at_fault;
 pub use observe::{Each, Observer, RunError, StopWhen};
 pub use recorded::{InputChange, InputRecorder, Playback, RecordedInputs};
 pub(crate) use sample::View as LeafView;

@@ -26,7 +26,7 @@ pub enum RunError {
         error: InputError,
     },
     /// A monitor found a violation.
-    #[error("tick {tick}: {message} (signals: {})", signals.join(", "))]
+    #[error("tick {tick}: {message}{}", at_fault(signals))]
     Violation {
         /// Tick at fault.
         tick: u64,
@@ -38,6 +38,14 @@ pub enum RunError {
 }
 
 crate::netlist::debug_as_display!(RunError);
+
+/// Returns the signals at fault in brackets, or nothing if there are none.
+pub(crate) fn at_fault(signals: &[String]) -> String {
+    match signals {
+        [] => String::new(),
+        signals => format!(" (signals: {})", signals.join(", ")),
+    }
+}
 
 impl RunError {
     /// Returns a conversion of an input error at this tick.

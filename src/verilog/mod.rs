@@ -8,9 +8,9 @@
 //! ```
 //! use motion_rtl::{circuits::blocks::EnableCounter, verilog::Verilog};
 //!
-//! let sources = Verilog::new(&EnableCounter { width: 24 })?.sources();
-//! assert_eq!(sources[0].name, "enable_counter.v");
-//! assert!(sources[0].text.contains("wire [23:0] next = count + 24'd1;"));
+//! let top = Verilog::new(&EnableCounter { width: 24 })?.top();
+//! assert_eq!(top.name, "enable_counter.v");
+//! assert!(top.text.contains("wire [23:0] next = count + 24'd1;"));
 //! # Ok::<(), motion_rtl::engine::EngineError>(())
 //! ```
 
@@ -30,7 +30,7 @@ mod text;
 mod unused;
 
 use crate::engine::EngineError;
-use crate::netlist::{Design, Value};
+use crate::netlist::{Design, Module, Value};
 use crate::sim::Described;
 use crate::trace::Clock;
 pub use connections::{Connection, Connections, Part};
@@ -44,12 +44,20 @@ pub struct Verilog {
 }
 
 /// A file of a design.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct SourceFile {
     /// Its name.
     pub name: String,
     /// Its text.
     pub text: String,
+}
+
+/// Returns the file of a module.
+fn source(modules: &Modules<'_>, module: &Module) -> SourceFile {
+    SourceFile {
+        name: format!("{}.v", module.name),
+        text: modules.print(module),
+    }
 }
 
 impl Verilog {
@@ -74,14 +82,31 @@ impl Verilog {
         }
     }
 
-    /// The files: a module each, the circuit itself last, then the contents of memories for
+    /// Returns the file of the circuit's own module.
+    ///
+    /// ```
+    /// use motion_rtl::circuits::pulse_interpolator::{UnitLaw, Variant};
+    /// use motion_rtl::verilog::Verilog;
+    ///
+    /// let verilog = Verilog::new(&UnitLaw { width: 8, variant: Variant::Safe })?;
+    /// let top = verilog.top();
+    /// assert!(top.text.contains("module unit_law"));
+    /// assert_ne!(verilog.sources()[0], top);
+    /// assert_eq!(verilog.sources().last(), Some(&top));
+    /// # Ok::<(), motion_rtl::engine::EngineError>(())
+    /// ```
+    pub fn top(&self) -> SourceFile {
+        let modules = self.modules();
+        let top = self.design.modules.last();
+        top.map_or_else(SourceFile::default, |module| source(&modules, module))
+    }
+
+    /// Returns the files: a module each, the circuit itself last, then the contents of memories for
     /// `$readmemh`.
     pub fn sources(&self) -> Vec<SourceFile> {
         let modules = self.modules();
-        let sources = self.design.modules.iter().map(|module| SourceFile {
-            name: format!("{}.v", module.name),
-            text: modules.print(module),
-        });
+        let sources = self.design.modules.iter();
+        let sources = sources.map(|module| source(&modules, module));
         let contents = self.design.settings.iter().filter_map(|setting| {
             let Value::Words(words) = &setting.value else {
                 return None;

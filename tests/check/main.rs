@@ -9,6 +9,7 @@ mod language;
 mod lockstep;
 mod monitor;
 mod proofs;
+mod prove;
 mod reach;
 mod report;
 mod search;

@@ -276,10 +276,11 @@ fn mistakes_of_a_part_come_with_those_around_it() {
         &circuit,
         COUNTER,
         &expect![[r#"
-        mod.rs:140:28: around: port `by` has 5 bits, `by` has 4 bits
-        mod.rs:27:20: around.counter: sum of `sum` (4 bits) and `by` (5 bits)
-        mod.rs:143:32: around: net `sum` has 4 bits, a sum has 5 bits
-    "#]],
+            mod.rs:140:28: around: port `counter.by` has 5 bits, `by` has 4 bits
+            mod.rs:27:20: around.counter: sum of `sum` (4 bits) and `by` (5 bits)
+            mod.rs:143:32: around: net `sum` has 4 bits, a sum has 5 bits
+            mod.rs:140:28: around: `counter` is Counter { width: 4, other: 5 }
+        "#]],
     );
 }
 
@@ -316,8 +317,9 @@ fn ports_nets_and_registers_have_their_widths() {
         &around(Fault::Port),
         AROUND,
         &expect![[r#"
-        mod.rs:51:22: around: port `by` has 4 bits, an operand has 3 bits
-    "#]],
+            mod.rs:51:22: around: port `counter.by` has 4 bits, a slice of `by` has 3 bits
+            mod.rs:51:22: around: `counter` is Counter { width: 4, other: 4 }
+        "#]],
     );
     mistakes(
         &around(Fault::Net),
@@ -330,8 +332,9 @@ fn ports_nets_and_registers_have_their_widths() {
         &around(Fault::Register),
         AROUND,
         &expect![[r#"
-        mod.rs:75:44: around: register `last` has 4 bits, an operand has 1 bit
-    "#]],
+            mod.rs:75:44: around: register `last` has 4 bits, bit 0 of `counter.next` has 1 bit
+            mod.rs:58:28: around: `counter` is Counter { width: 4, other: 4 }
+        "#]],
     );
 }
 
@@ -364,8 +367,9 @@ fn slices_are_within_the_word() {
         &around(Fault::Slice),
         AROUND,
         &expect![[r#"
-        mod.rs:62:34: around: bits 5 down to 2 of a port of `counter`, which has 4 bits
-    "#]],
+            mod.rs:62:34: around: bits 5 down to 2 of `counter.next`, which has 4 bits
+            mod.rs:58:28: around: `counter` is Counter { width: 4, other: 4 }
+        "#]],
     );
 }
 
@@ -448,6 +452,7 @@ fn a_panic_of_the_circuits_own_code_is_told() {
 }
 
 mod constants;
+mod described;
 mod inputs;
 mod optional;
 mod running;

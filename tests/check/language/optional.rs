@@ -225,7 +225,7 @@ fn ports_that_are_left_are_low_and_none_is_forgotten() {
         &forgotten,
         PARTLY,
         &expect![[r#"
-            optional.rs:25:29: partly: port `bounds_least` is given nothing
+            optional.rs:25:29: partly: port `meter.bounds.least` is given nothing
         "#]],
     );
 }
