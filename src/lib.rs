@@ -43,6 +43,9 @@
 //! # Ok::<(), motion_rtl::engine::EngineError>(())
 //! ```
 //!
+//! A [`Model`] runs a circuit of the catalogue by name, and finds its signals by name: without any
+//! type of the circuit, and with snapshots and waves that are switched on and off.
+//!
 //! A run with [`trace::Vcd`] as observer writes all signals; [`trace::replay`] writes the dump and
 //! the GTKWave save file for a list of inputs.
 //!
@@ -181,10 +184,10 @@
 //!
 //! | modules | floor |
 //! |---|---|
-//! | [`netlist`] | nodes, signals and modules of a netlist; mistakes of a circuit |
+//! | [`nearest`], [`netlist`] | nearest names; nodes, signals and modules of a netlist, mistakes of a circuit |
 //! | [`engine`], [`hdl`] | netlists made to run; the language that makes netlists |
-//! | [`sim`] | simulator of a circuit, observers, elaborated circuits without their type |
-//! | [`files`], [`nearest`], [`picture`] | files replaced as a whole, nearest names, drawings |
+//! | [`sim`] | simulator of a circuit, observers, elaborated and running circuits without their type |
+//! | [`files`], [`picture`] | files replaced as a whole, drawings |
 //! | [`settings`] | settings with defaults, ranges and units, and their errors |
 //! | [`input`], [`trace`] | G-code, HPGL and position logs; waves, stimuli, timing charts |
 //! | [`compare`], [`plan`], [`plant`], [`verilog`] | comparison of waves, speed profiles, motors, Verilog |
@@ -196,6 +199,7 @@
 //! | [`scenario`] | scenario files |
 #![deny(unsafe_code)]
 
+pub mod nearest;
 #[warn(missing_docs)]
 pub mod netlist;
 
@@ -208,7 +212,6 @@ pub mod hdl;
 pub mod sim;
 
 pub mod files;
-pub mod nearest;
 pub mod picture;
 
 pub mod settings;
@@ -239,6 +242,8 @@ pub mod jobs;
 pub mod registry;
 
 pub mod scenario;
+
+pub use sim::Model;
 
 /// The code in the notes on conventions is compiled and run as tests.
 #[cfg(doctest)]

@@ -20,9 +20,45 @@ pub fn did_you_mean<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) 
     nearest(wanted, names).map_or_else(String::new, |near| format!("; did you mean {near}?"))
 }
 
+/// Returns the paths most similar to `wanted`, at most `most`, the nearest first: by what is behind
+/// the last dot, then as a whole.
+pub fn nearest_paths<'a>(
+    wanted: &str,
+    paths: impl IntoIterator<Item = &'a str>,
+    most: usize,
+) -> Vec<String> {
+    fn last(path: &str) -> &str {
+        path.rsplit('.').next().unwrap_or(path)
+    }
+    let distances = paths.into_iter().map(|path| {
+        let of_last = strsim::osa_distance(last(wanted), last(path));
+        (of_last, strsim::osa_distance(wanted, path), path)
+    });
+    let mut ranked: Vec<_> = distances.collect();
+    ranked.sort_unstable();
+    ranked.truncate(most);
+    let ranked = ranked.into_iter().map(|(.., path)| path.to_owned());
+    ranked.collect()
+}
+
 #[cfg(test)]
 mod tests {
-    use super::nearest;
+    use super::{nearest, nearest_paths};
+
+    #[test]
+    fn the_nearest_paths_come_first() {
+        let paths = [
+            "top.count",
+            "top.a.counter",
+            "top.phase",
+            "top.x",
+            "top.y",
+            "top.z",
+        ];
+        let near = nearest_paths("top.cuont", paths, 5);
+        assert_eq!(near[0], "top.count");
+        assert_eq!(near.len(), 5);
+    }
 
     #[test]
     fn a_third_of_the_letters_may_differ() {

@@ -20,6 +20,7 @@ mod program;
 mod random;
 mod report;
 mod run;
+mod saved;
 pub(crate) mod sliced;
 #[cfg(test)]
 mod tests;
@@ -36,3 +37,4 @@ pub use program::Watch;
 pub(crate) use program::{Program, ports_out};
 pub use report::report;
 pub use run::Engine;
+pub(crate) use saved::Saved;

@@ -77,6 +77,11 @@ impl Program {
     pub fn flat(&self) -> &Flat {
         &self.flat
     }
+
+    /// True if the program is of this netlist.
+    pub(super) fn is_of(&self, flat: &Flat) -> bool {
+        std::ptr::eq(&*self.flat, flat) || *self.flat == *flat
+    }
 }
 
 /// Returns the leaves that are output ports of a design: public nets and registers of its

@@ -15,8 +15,8 @@ use std::sync::Arc;
 /// of leaves, [`edge`](Self::edge).
 #[derive(Debug)]
 pub struct Engine {
-    program: Arc<Program>,
-    slab: Vec<u64>,
+    pub(super) program: Arc<Program>,
+    pub(super) slab: Vec<u64>,
     tier: Tier,
     prediction: Option<Box<Prediction>>,
     pause: Pause,
@@ -303,6 +303,18 @@ impl Engine {
                 whole.get(leaf).copied().unwrap_or(0)
             }
         }
+    }
+
+    /// True if a leaf is not computed in every tick.
+    pub(crate) fn is_unwatched(&self, leaf: usize) -> bool {
+        self.program.plan.layout.leaves.get(leaf) == Some(&Spot::Gone)
+    }
+
+    /// True if reading a leaf computes all leaves of this tick.
+    #[inline]
+    pub(crate) fn is_costly(&self, leaf: usize) -> bool {
+        let spot = self.program.plan.layout.leaves.get(leaf);
+        spot == Some(&Spot::Gone) && self.whole.borrow().is_none()
     }
 
     /// True if a property holds.

@@ -6,6 +6,7 @@ use crate::engine::EngineError;
 use crate::nearest::nearest;
 use crate::netlist::Wrong;
 use crate::settings::{Pair, value};
+use crate::sim::Elaborated;
 use toml::{Table, Value};
 
 /// The largest width, or number of stages, axes and the like.
@@ -79,6 +80,25 @@ fn lines(wrong: &[WrongPair]) -> String {
 
 /// A circuit with some keys changed.
 pub(super) fn made(entry: &Entry, base: Base, pairs: &[Pair]) -> Result<Made, Refused> {
+    let made = read_pairs(entry, base, pairs)?;
+    if !pairs.is_empty() {
+        elaborate(&made)?;
+    }
+    Ok(made)
+}
+
+/// A circuit with some keys changed, elaborated.
+pub(super) fn elaborated(entry: &Entry, base: Base, pairs: &[Pair]) -> Result<Elaborated, Refused> {
+    elaborate(&read_pairs(entry, base, pairs)?)
+}
+
+fn elaborate(made: &Made) -> Result<Elaborated, Refused> {
+    let elaborated = made.model.model();
+    elaborated.map_err(|error| Refused::Values(without_sites(&error)))
+}
+
+/// A circuit with some keys changed, which may have mistakes.
+fn read_pairs(entry: &Entry, base: Base, pairs: &[Pair]) -> Result<Made, Refused> {
     if pairs.is_empty() {
         return Ok(entry.maker.value(base));
     }
@@ -95,10 +115,7 @@ pub(super) fn made(entry: &Entry, base: Base, pairs: &[Pair]) -> Result<Made, Re
     match read {
         _ if !wrong.is_empty() => Err(Refused::Pairs(wrong)),
         Err(error) => Err(Refused::Values(error.to_string())),
-        Ok(made) => match made.model.model() {
-            Ok(_) => Ok(made),
-            Err(error) => Err(Refused::Values(without_sites(&error))),
-        },
+        Ok(made) => Ok(made),
     }
 }
 

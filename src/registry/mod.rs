@@ -25,6 +25,7 @@ mod model;
 #[cfg(test)]
 mod ports_out;
 mod reader;
+mod running;
 mod scaled;
 mod sweep;
 

@@ -1,11 +1,13 @@
 //! The simulator: elaborated circuits, run tick by tick, and what observes their runs.
 //!
-//! A [`Simulator`] runs a circuit whose type is known, and shows its signals by name. An
-//! [`Elaborated`] circuit has its type erased: waves, charts, Verilog and random runs work on it.
+//! A [`Model`] runs a circuit whose type is erased, and finds its signals by name. A
+//! [`Simulator`] runs a circuit whose type is known. An [`Elaborated`] circuit has its type erased
+//! too: waves, charts, Verilog and random runs work on it.
 
 mod beside;
 mod cost;
 mod elaborated;
+mod model;
 mod observe;
 mod ports;
 mod recorded;
@@ -15,6 +17,8 @@ mod simulator;
 pub use beside::{Beside, Without};
 pub use cost::Cost;
 pub use elaborated::{Described, Elaborated};
+pub(crate) use model::Tap;
+pub use model::{Handle, Model, ModelError, PortDirection, SignalInfo, SignalRef, Snapshot};
 pub(crate) use observe::at_fault;
 pub use observe::{Each, Observer, RunError, StopWhen};
 pub use recorded::{InputChange, InputRecorder, Playback, RecordedInputs};

@@ -35,6 +35,12 @@ impl Range {
         }
     }
 
+    /// True if 64 bits hold a number.
+    #[inline]
+    fn is_whole(self, number: i128) -> bool {
+        self.shape.number(number as u64) == number
+    }
+
     /// True if a 64-bit number is in the range; it is two's complement if the port is signed.
     #[inline]
     fn has(self, number: u64) -> bool {
@@ -68,8 +74,24 @@ impl Ports {
     pub fn bits(&self, port: usize, number: u64) -> Result<u64, InputError> {
         match self.ranges.get(port) {
             Some(range) if range.has(number) => Ok(number & range.mask),
+            _ => Err(self.refused_bits(port, number)),
+        }
+    }
+
+    /// Converts a number of any size to the bits of a port.
+    #[inline]
+    pub fn bits_of(&self, port: usize, number: i128) -> Result<u64, InputError> {
+        match self.ranges.get(port) {
+            Some(range) if range.has(number as u64) && range.is_whole(number) => {
+                Ok(number as u64 & range.mask)
+            }
             _ => Err(self.refused(port, number)),
         }
+    }
+
+    /// Returns a mask of the bits of a port.
+    pub fn mask(&self, port: usize) -> u64 {
+        self.ranges.get(port).map_or(0, |range| range.mask)
     }
 
     /// Converts one number for each of the first `count` ports to bits.
@@ -80,7 +102,7 @@ impl Ports {
         }
         for (port, (number, range)) in numbers.iter_mut().zip(&self.ranges).enumerate() {
             if !range.has(*number) {
-                return Err(self.refused(port, *number));
+                return Err(self.refused_bits(port, *number));
             }
             *number &= range.mask;
         }
@@ -92,7 +114,7 @@ impl Ports {
         match self.ranges.get(port) {
             Some(range) if word & !range.mask == 0 => Ok(()),
             Some(range) => Err(InputError::bits(self.name(port), word, range.shape.width)),
-            None => Err(self.refused(port, word)),
+            None => Err(self.refused_bits(port, word)),
         }
     }
 
@@ -112,7 +134,15 @@ impl Ports {
 
     #[cold]
     #[inline(never)]
-    fn refused(&self, port: usize, number: u64) -> InputError {
+    fn refused_bits(&self, port: usize, number: u64) -> InputError {
+        let range = self.ranges.get(port);
+        let number = range.map_or(number.into(), |range| range.shape.number(number));
+        self.refused(port, number)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn refused(&self, port: usize, value: i128) -> InputError {
         let Some(range) = self.ranges.get(port) else {
             let ports = self.count();
             return InputError::Port { port, ports };
@@ -120,7 +150,7 @@ impl Ports {
         let (least, greatest) = range.shape.range();
         InputError::Range {
             port: self.name(port),
-            value: range.shape.number(number),
+            value,
             least,
             greatest,
         }

@@ -1,7 +1,6 @@
 //! Numeric view of a tick.
 
 use super::Elaborated;
-use super::ports::Ports;
 use crate::engine::{Engine, Spot};
 use crate::hdl::record::Places;
 use crate::hdl::{
@@ -59,8 +58,8 @@ pub(crate) struct Known<C: Circuit> {
     pub circuit: C,
     /// Number of input ports beside the circuit.
     pub beside: usize,
-    /// Ranges of the input ports; those beside the circuit come last.
-    pub ports: Ports,
+    /// Number of the circuit's own input ports, which come first.
+    pub own_ports: usize,
     /// Number of the circuit's own nets.
     nets: usize,
     signals: OnceLock<Signals<C>>,
@@ -71,7 +70,7 @@ impl<C: Circuit> Known<C> {
         Known {
             circuit: circuit.clone(),
             beside,
-            ports: model.ports(),
+            own_ports: model.leaves(Role::Input).len() - beside,
             nets: model.own_nets(),
             signals: OnceLock::new(),
         }
@@ -81,11 +80,6 @@ impl<C: Circuit> Known<C> {
     pub fn signals(&self) -> &Signals<C> {
         let signals = || Signals::of(&self.circuit, self.beside);
         self.signals.get_or_init(signals)
-    }
-
-    /// Returns the number of the circuit's own input ports.
-    pub fn own_ports(&self) -> usize {
-        self.ports.count() - self.beside
     }
 }
 
@@ -224,7 +218,7 @@ impl<C: Circuit> Sample<'_, C> {
     pub(crate) fn view(&self) -> View<'_> {
         match self.alone {
             false => View::of(self.engine),
-            true => View::without(self.engine, self.known.own_ports()),
+            true => View::without(self.engine, self.known.own_ports),
         }
     }
 

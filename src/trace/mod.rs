@@ -12,6 +12,7 @@ mod fst;
 pub mod gtkw;
 mod last_ticks;
 mod layout;
+mod model_waves;
 mod output_file;
 mod record;
 mod section;

@@ -1,11 +1,14 @@
 use super::layout::select;
 use super::{LayoutError, Options};
 use crate::hdl::{Circuit, Declaration};
+use crate::nearest::nearest_paths;
 use crate::sim::{Described, LeafView as View, Observer, RunError, Sample};
 use std::collections::HashMap;
 use std::io;
 use std::ops::{ControlFlow, Range};
-use strsim::osa_distance;
+
+/// Greatest number of paths that an error suggests.
+pub(super) const NEAR: usize = 5;
 
 /// Recorder of a run in memory: a column of values for every chosen signal.
 ///
@@ -166,7 +169,7 @@ impl Record {
             .copied()
             .ok_or_else(|| RecordError::Unknown {
                 path: path.to_owned(),
-                near: near(path, self.by_path.keys().map(String::as_str)),
+                near: nearest_paths(path, self.by_path.keys().map(String::as_str), NEAR),
             })
     }
 
@@ -196,46 +199,5 @@ fn did_you_mean(near: &[String]) -> String {
         String::new()
     } else {
         format!("; near it: {}", near.join(", "))
-    }
-}
-
-/// Returns the candidates most similar to `wanted`, at most five, the nearest first.
-pub(super) fn near<'a>(wanted: &str, candidates: impl Iterator<Item = &'a str>) -> Vec<String> {
-    let last = |path: &'a str| path.rsplit('.').next().unwrap_or(path);
-    let wanted_last = wanted.rsplit('.').next().unwrap_or(wanted);
-    let mut ranked: Vec<_> = candidates
-        .map(|path| {
-            (
-                osa_distance(wanted_last, last(path)),
-                osa_distance(wanted, path),
-                path,
-            )
-        })
-        .collect();
-    ranked.sort_unstable();
-    ranked.truncate(5);
-    ranked
-        .into_iter()
-        .map(|(.., path)| path.to_owned())
-        .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_nearest_names_come_first() {
-        let paths = [
-            "top.count",
-            "top.a.counter",
-            "top.phase",
-            "top.x",
-            "top.y",
-            "top.z",
-        ];
-        let near = near("top.cuont", paths.into_iter());
-        assert_eq!(near[0], "top.count");
-        assert_eq!(near.len(), 5);
     }
 }

@@ -5,8 +5,9 @@ use super::layout::Layout;
 use super::vcd::VcdFile;
 use super::walk::Change;
 use super::{Clock, Options};
+use crate::engine::Engine;
 use crate::files::AtomicFile;
-use crate::sim::Described;
+use crate::sim::{Described, LeafView as View, RunError};
 use std::io;
 
 /// Waveform format.
@@ -52,6 +53,11 @@ impl WaveFile {
         Ok(WaveFile {
             dump: Dump::new(&layout, clock, options, file),
         })
+    }
+
+    /// Writes a settled tick if it is selected.
+    pub(super) fn tick(&mut self, tick: u64, engine: &Engine) -> Result<(), RunError> {
+        self.dump.sample(tick, View::of(engine)).map(drop)
     }
 
     /// Gives the last tick its full length, waits until everything is written and returns the

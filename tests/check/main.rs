@@ -7,6 +7,7 @@ mod composite;
 mod floors;
 mod language;
 mod lockstep;
+mod model;
 mod monitor;
 mod proofs;
 mod prove;

@@ -3,7 +3,7 @@
 mod run;
 
 use super::sample::{Known, all_registers, read};
-use super::{Beside, Elaborated, RunError, Sample, State};
+use super::{Beside, Elaborated, Model, RunError, Sample, State};
 use crate::engine::{Engine, EngineError, Watch};
 use crate::hdl::{At, Circuit, Number, Place, Registers, Shapes, Signals, Value, Walk, pack};
 use std::cell::RefCell;
@@ -29,9 +29,7 @@ use std::sync::Arc;
 /// # Ok::<(), motion_rtl::sim::RunError>(())
 /// ```
 pub struct Simulator<C: Circuit> {
-    engine: Engine,
-    tick: u64,
-    settled: bool,
+    model: Model,
     known: Arc<Known<C>>,
     /// Buffer for input ports.
     words: Vec<u64>,
@@ -47,9 +45,7 @@ type EachTick<C> = Box<dyn FnMut(&Sample<'_, C>) + Send + Sync>;
 impl<C: Circuit> Clone for Simulator<C> {
     fn clone(&self) -> Self {
         Simulator {
-            engine: self.engine.clone(),
-            tick: self.tick,
-            settled: self.settled,
+            model: self.model.clone(),
             known: self.known.clone(),
             words: Vec::new(),
             each: None,
@@ -61,7 +57,7 @@ impl<C: Circuit> Clone for Simulator<C> {
 impl<C: Circuit> Drop for Simulator<C> {
     fn drop(&mut self) {
         if std::thread::panicking() && self.each.is_some() {
-            self.settle();
+            self.model.settle();
             self.pass_on();
         }
     }
@@ -70,7 +66,7 @@ impl<C: Circuit> Drop for Simulator<C> {
 impl<C: Circuit> fmt::Debug for Simulator<C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct(C::NAME)
-            .field("tick", &self.tick)
+            .field("tick", &self.tick())
             .finish_non_exhaustive()
     }
 }
@@ -179,11 +175,8 @@ impl<C: Circuit> Simulator<C> {
             true => Watch::All,
             false => Watch::Leaves(&watched),
         };
-        let engine = Engine::new(model.program_with(watch, &watched));
         let simulator = Simulator {
-            engine,
-            tick: 0,
-            settled: false,
+            model: Model::watching(model, watch, &watched),
             known: Arc::new(known),
             words: Vec::new(),
             each: None,
@@ -194,12 +187,12 @@ impl<C: Circuit> Simulator<C> {
     /// Compiles the circuit at once, rather than when it pays. Does nothing without the feature
     /// `jit`, or if there is no compiler for the machine.
     pub fn compile(&mut self) {
-        self.engine.compile();
+        self.model.engine_mut().compile();
     }
 
     /// Keeps the circuit on the interpreter, however long it runs.
     pub fn interpret(&mut self) {
-        self.engine.interpret();
+        self.model.engine_mut().interpret();
     }
 
     /// Returns the circuit.
@@ -209,12 +202,12 @@ impl<C: Circuit> Simulator<C> {
 
     /// Returns the number of the next tick.
     pub fn tick(&self) -> u64 {
-        self.tick
+        self.model.tick()
     }
 
     /// Returns the engine that runs the circuit.
     pub fn engine(&self) -> &Engine {
-        &self.engine
+        self.model.engine()
     }
 
     /// Returns the places of all signals.
@@ -233,7 +226,7 @@ impl<C: Circuit> Simulator<C> {
         value: T,
     ) -> Result<(), RunError> {
         let port = port(&self.known.signals().i);
-        self.put(port.leaf(), value.word())
+        self.model.put(port.leaf(), value.word())
     }
 
     /// Sets an input port to the bits of `word`, from this tick on, by its number from 0 in
@@ -242,25 +235,10 @@ impl<C: Circuit> Simulator<C> {
     /// # Errors
     /// Returns an error if the word is wider than the port, or there is no such port.
     pub fn set_port(&mut self, port: usize, word: u64) -> Result<(), RunError> {
-        let checked = self.known.ports.check_word(port, word);
-        checked.map_err(RunError::at(self.tick))?;
-        self.drive(port, word);
+        let checked = self.model.ports().check_word(port, word);
+        checked.map_err(RunError::at(self.tick()))?;
+        self.model.drive(port, word);
         Ok(())
-    }
-
-    /// Sets an input port to a number of 64 bits.
-    #[inline]
-    fn put(&mut self, port: usize, number: u64) -> Result<(), RunError> {
-        let bits = self.known.ports.bits(port, number);
-        let bits = bits.map_err(RunError::at(self.tick))?;
-        self.drive(port, bits);
-        Ok(())
-    }
-
-    #[inline]
-    fn drive(&mut self, port: usize, bits: u64) {
-        self.engine.drive(port, bits);
-        self.settled = false;
     }
 
     /// Sets all input ports, from this tick on.
@@ -272,11 +250,10 @@ impl<C: Circuit> Simulator<C> {
     pub fn apply(&mut self, i: &C::In<Value>) -> Result<(), RunError> {
         self.words.clear();
         i.words(&mut self.words);
-        let own = self.known.own_ports();
-        let bits = self.known.ports.all_bits(own, &mut self.words);
-        bits.map_err(RunError::at(self.tick))?;
-        self.engine.drive_all(&self.words);
-        self.settled = false;
+        let own = self.known.own_ports;
+        let bits = self.model.ports().all_bits(own, &mut self.words);
+        bits.map_err(RunError::at(self.tick()))?;
+        self.model.drive_all(&self.words);
         Ok(())
     }
 
@@ -285,24 +262,16 @@ impl<C: Circuit> Simulator<C> {
     /// # Errors
     /// Returns an error if a value does not fit its signal.
     pub fn show<B: Beside>(&mut self, beside: &B::Signals<Value>) -> Result<(), RunError> {
-        let ports = self.known.own_ports();
+        let ports = self.known.own_ports;
         let mut numbers = (ports..).zip(pack::tokens(beside));
-        numbers.try_for_each(|(port, number)| self.put(port, number))
-    }
-
-    #[inline]
-    fn settle(&mut self) {
-        if !self.settled {
-            self.engine.settle();
-            self.settled = true;
-        }
+        numbers.try_for_each(|(port, number)| self.model.put(port, number))
     }
 
     /// Returns the value at a place in this tick, settled.
     #[inline]
     pub fn get<T: Number>(&mut self, at: At<T>) -> T {
-        self.settle();
-        read(&self.engine, at)
+        self.model.settle();
+        read(self.engine(), at)
     }
 
     /// Returns the value of one of the [signals](Signals) in this tick, settled.
@@ -315,25 +284,25 @@ impl<C: Circuit> Simulator<C> {
     /// Shows this tick, settled.
     #[inline]
     pub fn now<T>(&mut self, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
-        self.settle();
-        Sample::show(self.tick, &self.known, &self.engine, show)
+        self.model.settle();
+        Sample::show(self.tick(), &self.known, self.engine(), show)
     }
 
     /// Shows the registers of this tick.
     #[inline]
     pub fn state<T>(&self, show: impl FnOnce(&State<'_, C>) -> T) -> T {
-        State::show(&self.known, &self.engine, show)
+        State::show(&self.known, self.engine(), show)
     }
 
     /// Returns the registers of this tick.
     pub fn registers(&self) -> Registers<C> {
-        all_registers(&self.known.circuit, &self.engine)
+        all_registers(&self.known.circuit, self.engine())
     }
 
     /// Advances to the next tick.
     #[inline]
     pub fn step(&mut self) {
-        self.settle();
+        self.model.settle();
         self.edge();
     }
 
@@ -343,19 +312,15 @@ impl<C: Circuit> Simulator<C> {
     /// no reset, like block RAM: they take the edge as usual, and a write in the tick of the reset
     /// takes effect.
     pub fn reset(&mut self) {
-        self.settle();
+        self.model.settle();
         self.receive();
-        self.engine.reset();
-        self.tick += 1;
-        self.settled = false;
+        self.model.reset_edge();
     }
 
     #[inline]
     fn edge(&mut self) {
         self.receive();
-        self.engine.edge();
-        self.tick += 1;
-        self.settled = false;
+        self.model.edge();
     }
 
     /// Calls a function with every tick from this one on, settled, before its edge; also with the
@@ -379,7 +344,8 @@ impl<C: Circuit> Simulator<C> {
     #[inline(never)]
     fn pass_on(&mut self) {
         if let Some(each) = &mut self.each {
-            Sample::show(self.tick, &self.known, &self.engine, |now| each(now));
+            let (tick, engine) = (self.model.tick(), self.model.engine());
+            Sample::show(tick, &self.known, engine, |now| each(now));
         }
     }
 

@@ -1,6 +1,7 @@
 //! Runs of many ticks.
 
 use super::Simulator;
+use crate::engine::Engine;
 use crate::hdl::{Circuit, Value};
 use crate::sim::{Observer, RunError, Sample, State};
 use std::ops::ControlFlow;
@@ -19,9 +20,9 @@ impl<C: Circuit> Simulator<C> {
         mut stimulus: impl FnMut(u64, &State<'_, C>) -> C::In<Value>,
         mut observer: impl Observer<C>,
     ) -> Result<(), RunError> {
-        let end = self.tick.saturating_add(ticks);
-        while self.tick < end {
-            let i = self.state(|q| stimulus(self.tick, q));
+        let end = self.tick().saturating_add(ticks);
+        while self.tick() < end {
+            let i = self.state(|q| stimulus(self.tick(), q));
             self.apply(&i)?;
             let flow = self.now(|now| observer.sample(now));
             self.edge();
@@ -75,11 +76,11 @@ impl<C: Circuit> Simulator<C> {
         mut observer: impl Observer<C>,
         jumps: bool,
     ) -> Result<(), RunError> {
-        let end = self.tick.saturating_add(ticks);
-        while self.tick < end {
+        let end = self.tick().saturating_add(ticks);
+        while self.tick() < end {
             let held = drive(self)?;
             // Input ports are constant until then.
-            let until = self.tick.saturating_add(held.max(1)).min(end);
+            let until = self.tick().saturating_add(held.max(1)).min(end);
             loop {
                 if self.now(|now| observer.sample(now))?.is_break() {
                     self.edge();
@@ -93,38 +94,19 @@ impl<C: Circuit> Simulator<C> {
         Ok(())
     }
 
-    /// Advances to the next tick in which something watched has changed. Returns true if there is
-    /// one before `until`; its registers are set, and nothing is settled.
+    /// Advances to the next tick in which something watched has changed; see
+    /// [`Model::go_to_change`](crate::sim::Model::go_to_change).
     fn go_to_change(&mut self, until: u64, jumps: bool) -> bool {
-        self.settle();
-        loop {
-            let left = until - self.tick;
-            if jumps && self.each.is_none() {
-                let gone = self.engine.forward(left);
-                self.tick += gone;
-                if gone > 0 {
-                    self.settled = false;
-                    if gone == left {
-                        return false;
-                    }
-                    self.settle();
-                    return true;
-                }
-            }
-            if left == 1 {
-                self.edge();
-                return false;
-            }
-            let most = match self.each.is_some() {
-                true => 1,
-                false if jumps => self.engine.pause(),
-                false => u64::MAX,
-            };
-            self.receive();
-            // Stops at a settled tick.
-            self.tick += self.engine.advance(most.min(left - 1));
-            if self.engine.has_changed() {
-                return true;
+        let Simulator {
+            model, known, each, ..
+        } = self;
+        match each {
+            None => model.go_to_change(until, jumps, None),
+            Some(each) => {
+                let mut receive = |tick: u64, engine: &Engine| {
+                    Sample::show(tick, known, engine, |now| each(now));
+                };
+                model.go_to_change(until, jumps, Some(&mut receive))
             }
         }
     }
@@ -185,15 +167,15 @@ impl<C: Circuit> Simulator<C> {
     /// Returns the number of ticks up to the next that an observer needs, including the one
     /// [looked](Self::look) at.
     pub fn unseen(&self, observer: &impl Observer<C>) -> u64 {
-        observer.next_look(self.tick + 1) - self.tick
+        observer.next_look(self.tick() + 1) - self.tick()
     }
 
     /// Advances from a tick that was [looked](Self::look) at, by 1 to `ticks` ticks with constant
     /// input ports: to the first in which an output port or a [watched](Self::watching) signal may
     /// have changed. Returns the number of ticks.
     pub fn go_on(&mut self, ticks: u64) -> u64 {
-        let start = self.tick;
+        let start = self.tick();
         self.go_to_change(start.saturating_add(ticks.max(1)), true);
-        self.tick - start
+        self.tick() - start
     }
 }

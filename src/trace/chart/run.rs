@@ -1,11 +1,12 @@
 use super::{Cell, Chart, ChartError, Problem, Row};
 use crate::engine::{EngineError, Watch};
 use crate::hdl::Declaration;
+use crate::nearest::nearest_paths;
 use crate::netlist::Format;
 use crate::settings::Pair;
 use crate::sim::{Described, Elaborated, LeafView as View, RunError};
 use crate::trace::Options;
-use crate::trace::record::{Record, near};
+use crate::trace::record::{NEAR, Record};
 use crate::trace::value::{read, show};
 use std::fmt::{self, Write};
 
@@ -230,7 +231,7 @@ fn resolve<'a>(
             let problem = Problem::Unknown {
                 what,
                 name: row.name.clone(),
-                near: near(&row.name, names.iter().map(String::as_str)),
+                near: nearest_paths(&row.name, names.iter().map(String::as_str), NEAR),
             };
             return Err(problem.at(row.line));
         };

@@ -5,8 +5,9 @@ mod sources;
 
 pub use sources::{Position, SeriesPlan};
 
-use super::record::{RecordError, near};
+use super::record::{NEAR, RecordError};
 use crate::hdl::{Circuit, Declaration};
+use crate::nearest::nearest_paths;
 use crate::sim::{Described, LeafView as View, Observer, RunError, Sample};
 use npy::Header;
 use sources::{Plan, Source};
@@ -250,7 +251,7 @@ impl Signals<'_> {
         let found = self.leaves.iter().position(|leaf| leaf.path() == path);
         found.ok_or_else(|| {
             let paths: Vec<_> = self.leaves.iter().map(Declaration::path).collect();
-            let near = near(&path, paths.iter().map(String::as_str));
+            let near = nearest_paths(&path, paths.iter().map(String::as_str), NEAR);
             io::Error::new(
                 io::ErrorKind::InvalidInput,
                 RecordError::Unknown { path, near },

@@ -7,6 +7,7 @@ mod dump;
 mod fst;
 mod gtkwave;
 mod last_ticks;
+mod model;
 mod names;
 mod reader;
 mod replay;
