@@ -4,7 +4,7 @@ use super::{Model, ModelError};
 
 /// Signal of a [`Model`], found once: it is read and set without a search for its name.
 ///
-/// It belongs to all models of the same circuit with the same keys.
+/// A handle belongs to all models of the same circuit with the same keys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Handle {
     pub(super) leaf: u32,
