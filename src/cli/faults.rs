@@ -17,7 +17,7 @@ pub fn report(fault: &Fault) -> String {
     let mut told: Vec<String> = fault.all().map(|fault| one(fault, &renderer)).collect();
     if told.len() == MOST_FAULTS {
         told.push(format!(
-            "{MOST_FAULTS} errors are told of at once; there may be more"
+            "only the first {MOST_FAULTS} errors are shown; there may be more"
         ));
     }
     told.join("\n")

@@ -6,6 +6,7 @@ use super::{Failure, warn};
 use motion_rtl::files::{self, AtomicFile, Claim, Directory, commit_all};
 use motion_rtl::input::MORE_FILES;
 use serde::Serialize;
+use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::fmt;
 use std::io;
@@ -199,7 +200,6 @@ impl Files {
 
     /// Gives all files their final names; returns names and sizes. If one fails, none remains.
     pub fn commit(self) -> Result<Vec<Named>, Failure> {
-        let directory = self.directory().to_owned();
         // One run at a time, so that what is checked is what is replaced.
         let _turn = match self.exports.is_empty() {
             true => None,
@@ -208,11 +208,22 @@ impl Files {
         for export in &self.exports {
             export.check(self.directory())?;
         }
-        let written = Written::read(&directory);
-        let paths = self.complete.iter().map(AtomicFile::path);
-        let ours = written.free(paths.filter(|path| parent(path) == directory));
+        // Each directory has a list of its own files.
+        let paths: Vec<_> = self
+            .complete
+            .iter()
+            .map(|file| file.path().to_owned())
+            .collect();
+        let directories: BTreeSet<_> = paths.iter().map(|path| parent(path)).collect();
+        let lists = directories.into_iter().map(|directory| {
+            let inside = paths.iter().map(PathBuf::as_path);
+            let list = Written::read(directory);
+            let ours = list.free(inside.filter(|path| parent(path) == directory));
+            (list, ours)
+        });
+        let lists: Vec<_> = lists.collect();
         let named = commit_all(self.complete)?;
-        written.add(&ours);
+        lists.iter().for_each(|(list, ours)| list.add(ours));
         Ok(named.iter().map(|path| Named::new(path)).collect())
     }
 }

@@ -12,7 +12,7 @@ use motion_rtl::jobs::pulse_interpolator::table::read::columns;
 use motion_rtl::jobs::pulse_interpolator::{AxisScaling, Ratio, Report, Scaled, Table};
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `table`.
 #[derive(Debug, Args)]
@@ -44,6 +44,13 @@ struct Output<'a> {
 }
 
 pub fn table(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.out.as_deref() == Some(Path::new("-")) {
+        return Err(Failure::Argument {
+            field: "--out",
+            problem: "is -".to_owned(),
+            allowed: "the path of a file".to_owned(),
+        });
+    }
     let source = Source::read(&arguments.input)?;
     if let Some(path) = &arguments.out {
         source.spare_inputs("--out", path, &arguments.input)?;

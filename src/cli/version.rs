@@ -6,9 +6,10 @@ use std::sync::LazyLock;
 const COMMIT: Option<&str> = option_env!("MOTION_RTL_COMMIT");
 
 /// Optional features, and whether they are built in.
-const FEATURES: [(&str, bool); 3] = [
+const FEATURES: [(&str, bool); 4] = [
     ("cli", cfg!(feature = "cli")),
     ("jit", cfg!(feature = "jit")),
+    ("schema", cfg!(feature = "schema")),
     ("shell", cfg!(feature = "shell")),
 ];
 

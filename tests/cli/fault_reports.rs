@@ -161,6 +161,6 @@ fn there_is_an_end_to_what_is_told() {
     let bench = Bench::with("p.ngc", "G41\n".repeat(50));
     bench.refuse_with(&["run", "p.ngc"], |stderr| {
         assert_eq!(stderr.matches("error: ").count(), 20, "{stderr}");
-        assert!(stderr.ends_with("\n20 errors are told of at once; there may be more\n"));
+        assert!(stderr.ends_with("\nonly the first 20 errors are shown; there may be more\n"));
     });
 }

@@ -265,3 +265,22 @@ fn keys_that_do_not_apply_to_another_circuit_are_reported_together() {
         )
     );
 }
+
+#[test]
+fn all_keys_that_do_not_apply_are_reported_in_the_order_of_the_lines() {
+    let keys: Vec<_> = (0..30)
+        .map(|number| format!("key_{}", 29 - number))
+        .collect();
+    let lines: Vec<_> = keys.iter().map(|key| format!("{key} = 1\n")).collect();
+    let text = format!("circuit = \"machine\"\n{}", lines.concat());
+    let bench = Bench::new();
+    bench.write("s.toml", &text);
+    let done = bench.run(&["run", "s.toml"]);
+    let errors = done
+        .stderr
+        .lines()
+        .filter(|line| line.starts_with("error: "));
+    let fields = errors.filter_map(|line| line.split(": ").nth(2).map(str::to_owned));
+    let fields: Vec<_> = fields.collect();
+    assert_eq!((done.code, fields), (2, keys), "{}", done.stderr);
+}

@@ -229,6 +229,9 @@ fn the_version_has_features_and_platform() {
     for part in ["\ncommit: ", "\nfeatures: cli", "\nplatform: "] {
         assert!(long.contains(part), "{long}");
     }
+    for feature in ["cli", "jit", "schema", "shell"] {
+        assert!(long.contains(feature), "{long}");
+    }
 }
 
 #[test]

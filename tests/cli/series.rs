@@ -449,7 +449,7 @@ fn the_file_is_named_with_the_others_or_not_left() {
         .unwrap()
         .len();
     assert_eq!(whole(&summary, "/files/0/bytes"), bytes as i64);
-    // Only what stands beside the waves is known to `clean` of their directory.
+    // Each directory knows its own files, and `clean` of another leaves them.
     bench.succeed(&[&run[..], &["--series", "waves/s.csv"]].concat());
     std::fs::copy(bench.path("deep/er/s.NPY"), bench.path("waves/s.NPY")).unwrap();
     let times = std::fs::metadata(bench.path("deep/er/s.NPY")).unwrap();
@@ -467,6 +467,13 @@ fn the_file_is_named_with_the_others_or_not_left() {
         "waves/",
         "waves/s.NPY",
     ];
+    assert_eq!(bench.names(), left);
+    bench.succeed(&["clean", "deep/er", "--yes"]);
+    let left = ["deep/", "deep/er/", "l.hpgl", "waves/", "waves/s.NPY"];
+    assert_eq!(bench.names(), left);
+    // However the directory of the waves is spelled.
+    bench.succeed(&[&run[..], &["--series", "./waves/t.csv"]].concat());
+    bench.succeed(&["clean", "waves", "--yes"]);
     assert_eq!(bench.names(), left);
 }
 

@@ -193,6 +193,14 @@ fn scaling_multiplies_every_half_period() {
 }
 
 #[test]
+fn a_table_has_no_standard_output() {
+    let bench = Bench::with("l.ngc", "G1 X0.1 F1\n");
+    let text = "--out: is -; allowed: the path of a file";
+    bench.refuse(&["table", "l.ngc", "--out", "-"], text);
+    assert_eq!(bench.names(), ["l.ngc"]);
+}
+
+#[test]
 fn bad_ratios_are_refused() {
     let bench = Bench::with("l.ngc", "G1 X0.1 F1\n");
     for ratio in ["0", "1/0", "", "x", "1/2/3", "1.5", "+", "4294967296"] {

@@ -8,8 +8,11 @@ use toml::de::{DeTable, DeValue};
 
 use super::super::{Runnable, Scenario};
 use super::{CIRCUIT, NO_DEFAULT, scenario};
-use crate::input::{Fault, Faults, MOST_FAULTS};
+use crate::input::{Fault, Faults};
 use crate::settings::ALLOWED;
+
+/// Most faults that are looked for: more than a shipped scenario has keys.
+const MOST_FOUND: usize = 100;
 
 /// Reads the keys of a scenario, of another circuit than its own if `circuit` says one. What is
 /// wrong with a key is reported, and the key left out to find what else is.
@@ -32,7 +35,7 @@ pub(super) fn read(
         .map(|error| fault(file, text, error))
         .collect();
     let mut left_out: Vec<String> = Vec::new();
-    while found.len() == left_out.len() && found.len() < MOST_FAULTS {
+    while found.len() == left_out.len() && found.len() < MOST_FOUND {
         let error = match scenario(&table) {
             Ok(scenario) if found.is_empty() => return Ok(Some(scenario)),
             Ok(_) => break,
@@ -55,10 +58,9 @@ pub(super) fn read(
     // A missing key may be a misspelt one: misspelt keys come first.
     found.sort_by_key(|fault| (fault.problem == "missing", fault.line));
     let mut faults = Faults::default();
+    // All of them: a scenario that moves to another circuit has many keys that do not apply.
     for fault in found {
-        if !faults.add(fault) {
-            break;
-        }
+        faults.add(fault);
     }
     // There is a fault, or the scenario would have been returned.
     faults.or(|| {
