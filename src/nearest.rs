@@ -17,7 +17,12 @@ pub fn nearest<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) -> Op
 /// Returns "; did you mean X?" with the nearest name, for the end of a problem; nothing if none is
 /// near enough.
 pub fn did_you_mean<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) -> String {
-    nearest(wanted, names).map_or_else(String::new, |near| format!("; did you mean {near}?"))
+    meant(nearest(wanted, names))
+}
+
+/// Returns "; did you mean X?" for a name that was found near, or nothing.
+pub fn meant(near: Option<&str>) -> String {
+    near.map_or_else(String::new, |near| format!("; did you mean {near}?"))
 }
 
 /// Returns the paths most similar to `wanted`, at most `most`, the nearest first: by what is behind

@@ -1,13 +1,13 @@
 //! Signals that invariants name as at fault, checked against those of the circuit.
 
 use super::counterexample::is_named;
-use crate::nearest::nearest;
+use crate::nearest::{meant, nearest};
 use crate::sim::Elaborated;
 use std::cell::{Cell, RefCell};
 
 /// Name in an invariant that belongs to no signal of the circuit.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{circuit}: the invariant `{invariant}` names `{signal}`, but there is no such signal{}", hint(.near.as_deref()))]
+#[error("{circuit}: the invariant `{invariant}` names `{signal}`, but there is no such signal{}", meant(.near.as_deref()))]
 pub struct UnknownSignal {
     /// Name of the circuit.
     pub circuit: String,
@@ -17,10 +17,6 @@ pub struct UnknownSignal {
     pub signal: String,
     /// Nearest name of a signal.
     pub near: Option<String>,
-}
-
-fn hint(near: Option<&str>) -> String {
-    near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"))
 }
 
 /// Returns the errors of all `named` signals, each with its invariant, that the circuit does not

@@ -39,7 +39,7 @@ pub fn clean(arguments: &Arguments) -> Result<(), Failure> {
         warn(&format!("{} changed since: it stays", path.display()));
     }
     if files.is_empty() {
-        return print(&format!("no run's files in {}\n", directory.display()));
+        return print(&format!("{} has no files of runs\n", directory.display()));
     }
     let mut text = String::new();
     for path in &files {
@@ -72,8 +72,7 @@ fn agreed(count: usize) -> Result<bool, Failure> {
     if !stdin().is_terminal() || voice::is_quiet() {
         return Err(Failure::Argument {
             field: "clean",
-            problem: "nobody can be asked: standard input is no terminal, or --quiet is given"
-                .into(),
+            problem: "cannot ask: standard input is not a terminal, or --quiet is given".into(),
             allowed: "--yes to remove them, --dry-run to name them".into(),
         });
     }

@@ -43,7 +43,7 @@ enum Command {
     /// Writes a circuit as Verilog, with a testbench, its stimulus and the golden waves.
     #[command(after_help = help::VERILOG)]
     Verilog(super::verilog::Arguments),
-    /// Holds a waveform, such as a simulator's, against a golden one, tick by tick.
+    /// Compares a waveform, such as a simulator's, with a golden one, tick by tick.
     #[command(after_help = help::COMPARE)]
     Compare(super::compare::Arguments),
     /// Shows how a circuit is run: its blocks, what wakes them, how often each runs.
@@ -52,7 +52,7 @@ enum Command {
     /// Lists circuits with ports and widths, and scenarios; or a circuit with what it is made of.
     #[command(after_help = help::LIST)]
     List(super::list::Arguments),
-    /// Lists the keys of a job's scenarios: types, units, defaults, ranges and meanings.
+    /// Lists the keys of a job's scenarios or of a circuit: types, units, values and ranges.
     #[command(after_help = help::KEYS)]
     Keys(super::keys::Arguments),
     /// Removes the files that runs have written into a directory, after naming them.

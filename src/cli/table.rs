@@ -2,6 +2,7 @@
 
 use super::files::Named;
 use super::pulse::{Job, TableSummary, warnings};
+use super::rows::plural;
 use super::source::{Input, Source};
 use super::written::Written;
 use super::{Failure, errors, print, print_json};
@@ -138,8 +139,11 @@ fn csv(table: &Table) -> String {
 
 fn text(job: &Job, output: &Output<'_>) -> String {
     let mut text = format!(
-        "{}: {} ticks at {} Hz, {} patterns\n\n",
-        output.input, job.report.total_ticks, output.clock_hz, output.patterns
+        "{}: {} ticks at {} Hz, {}\n\n",
+        output.input,
+        job.report.total_ticks,
+        output.clock_hz,
+        plural(output.patterns, "pattern")
     );
     let _ = writeln!(
         text,

@@ -3,7 +3,7 @@
 use super::entry::{Base, Entry, Made};
 use super::reader::{Kind, Kinds, Misread};
 use crate::engine::EngineError;
-use crate::nearest::nearest;
+use crate::nearest::{self, nearest};
 use crate::netlist::Wrong;
 use crate::settings::{Pair, value};
 use crate::sim::Elaborated;
@@ -310,7 +310,7 @@ fn meant<'a>(given: &str, names: impl Iterator<Item = &'a str> + Clone) -> Strin
         let near = nearest(last(given), names.clone().map(last))?;
         names.clone().find(|name| last(name) == near)
     });
-    near.map_or(String::new(), |near| format!("; did you mean `{near}`?"))
+    nearest::meant(near)
 }
 
 /// Refuses a width, or a number of things, that no circuit has.

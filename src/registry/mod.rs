@@ -10,7 +10,7 @@
 //! assert_eq!(circuit.name(), "comparator");
 //!
 //! let refused = comparator.made(Base::Full, &["comparing=equl".parse()?]).err();
-//! let text = "comparing: unknown variant `equl`; did you mean `equal`?; \
+//! let text = "comparing: unknown variant `equl`; did you mean equal?; \
 //!             allowed: `crossing` or `equal`";
 //! assert_eq!(refused.map(|error| error.to_string()).as_deref(), Some(text));
 //! # Ok(())

@@ -106,7 +106,7 @@ fn a_signal_that_an_invariant_names_exists() {
         &circuit,
         &law,
         &expect![[r#"
-            modulo: the invariant `short` names `cuont`, but there is no such signal; did you mean `count`?
+            modulo: the invariant `short` names `cuont`, but there is no such signal; did you mean count?
             modulo: the invariant `long` names `parts.count`, but there is no such signal
             modulo: the invariant `long` names `zzz`, but there is no such signal"#]],
     );
@@ -156,7 +156,7 @@ fn a_signal_that_a_property_names_exists() {
         &Misspelt,
         &Invariants::of(&Misspelt),
         &expect![
-            "misspelt: the invariant `one of two` names `frehs`, but there is no such signal; did you mean `fresh`?"
+            "misspelt: the invariant `one of two` names `frehs`, but there is no such signal; did you mean fresh?"
         ],
     );
 }

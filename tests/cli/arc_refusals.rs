@@ -132,7 +132,7 @@ fn bad_pieces_are_refused_with_their_line() {
         ),
         (
             "[[piece]]\nvia_mm = [200, 0, 0]\n".into(),
-            "s.toml:7: to_mm: missing; allowed: a value for it: it has no default",
+            "s.toml:7: to_mm: missing; allowed: a value, as the key has no default",
         ),
         (
             "[[piece]]\nto_mm = [200, 0, 0]\nspline = true\n".into(),

@@ -176,7 +176,7 @@ fn what_cannot_be_proved_is_refused() {
     set(
         "unit_law",
         "variant=literel",
-        "unknown variant `literel`; did you mean `literal`?; allowed: `safe` or `literal`",
+        "unknown variant `literel`; did you mean literal?; allowed: `safe` or `literal`",
     );
     set(
         "integrator",

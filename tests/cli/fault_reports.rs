@@ -96,7 +96,7 @@ fn all_faults_of_a_scenario_are_told() {
                |
             11 | sped = 10
                | ^^^^
-            error: s.toml:9: speed_counts_per_s: missing; allowed: a value for it: it has no default
+            error: s.toml:9: speed_counts_per_s: missing; allowed: a value, as the key has no default
         "#]],
     );
     told(

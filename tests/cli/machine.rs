@@ -368,7 +368,7 @@ fn bad_input_is_refused_with_its_line() {
         (
             "[lift]\nfriction_nm = 1",
             SHORT,
-            "s.toml:8: counts_per_rev: missing; allowed: a value for it: it has no default",
+            "s.toml:8: counts_per_rev: missing; allowed: a value, as the key has no default",
         ),
         (
             "lift_lead_ms = 25\n[lift]\ncounts_per_rev = 8000\nacceleration_counts_per_s2 = 6e5\n\

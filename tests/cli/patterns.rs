@@ -536,7 +536,7 @@ fn bad_groups_are_refused() {
         ),
         (
             second("command_tick = 1"),
-            "s.toml:7: play: missing; allowed: a value for it: it has no default",
+            "s.toml:7: play: missing; allowed: a value, as the key has no default",
         ),
     ] {
         let bench = Bench::with("t.csv", rows(2));

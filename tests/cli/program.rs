@@ -368,7 +368,7 @@ fn clean_removes_what_runs_have_made_and_nothing_else() {
     fs::remove_file(bench.path("o/line.gtkw")).unwrap();
     assert_eq!(
         bench.succeed(&["clean", "o", "--yes"]),
-        "no run's files in o\n"
+        "o has no files of runs\n"
     );
     bench.refuse(
         &["clean", "nowhere"],
@@ -440,7 +440,7 @@ fn a_list_names_files_of_its_directory_alone() {
     bench.write("o/.motion-rtl-written", lines.concat());
     assert_eq!(
         bench.succeed(&["clean", "o", "--yes"]),
-        "no run's files in o\n"
+        "o has no files of runs\n"
     );
     assert_eq!(bench.read("victim/w.vcd"), "mine");
 
@@ -467,6 +467,6 @@ fn a_list_names_files_of_its_directory_alone() {
     bench.succeed(&run);
     assert_eq!(
         bench.succeed(&["clean", "o", "--yes"]),
-        "no run's files in o\n"
+        "o has no files of runs\n"
     );
 }

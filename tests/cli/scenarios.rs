@@ -271,7 +271,7 @@ microsteps = 16
 fn bad_scenarios_are_refused_with_their_line() {
     const NO_TOML: &str = "lines of key = value, in TOML";
     const KEYS: &str = "`motion-rtl keys pulse_interpolator` lists all";
-    let missing = "s.toml: circuit: missing; allowed: a value for it: it has no default";
+    let missing = "s.toml: circuit: missing; allowed: a value, as the key has no default";
     let drawing = "the path of an HPGL drawing or a G-code program";
     // What follows the first line, which names the circuit.
     let cases = [

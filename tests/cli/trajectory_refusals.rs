@@ -152,7 +152,7 @@ fn bad_settings_are_refused_with_their_line() {
         ),
         (
             "[machine]\nmax_torque_nm = 1\n",
-            "s.toml:6: motor_inertia_kg_m2: missing; allowed: a value for it: it has no default",
+            "s.toml:6: motor_inertia_kg_m2: missing; allowed: a value, as the key has no default",
         ),
     ];
     for (text, refusal) in cases {

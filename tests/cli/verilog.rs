@@ -251,8 +251,8 @@ fn widths_and_numbers_that_are_not_taken_are_refused() {
     ];
     let done = bench.run(&verilog("axis", &[&wrong[..], &["--out", "v"]].concat()));
     let told = format!(
-        "error: --set half_perod=4: no key of axis; did you mean `memory.half_period`?; allowed: {KEYS}\n\
-         error: --set variant=literel: unknown variant `literel`; did you mean `literal`?; allowed: \
+        "error: --set half_perod=4: no key of axis; did you mean memory.half_period?; allowed: {KEYS}\n\
+         error: --set variant=literel: unknown variant `literel`; did you mean literal?; allowed: \
          `safe` or `literal`\n\
          error: --set memory.address=x: invalid type: string \"x\"; allowed: a whole number from 0\n"
     );

@@ -5,7 +5,7 @@ use super::runs::Run;
 use super::summary::Summary;
 use crate::cli::columns::Table;
 use crate::cli::report::{Outcome, Report};
-use crate::cli::rows::{fixed, fixed_or_dash, more, or_dash, worst};
+use crate::cli::rows::{fixed, fixed_or_dash, more, or_dash, plural, worst};
 use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use motion_rtl::jobs::trajectory_controller::each_axis::EachAxis;
 use motion_rtl::settings::tidy;
@@ -53,13 +53,6 @@ impl Report for Summary<'_> {
         self.circle(text)?;
         self.segments(text, all)?;
         Ok(())
-    }
-}
-
-fn plural(count: usize, what: &str) -> String {
-    match count {
-        1 => format!("1 {what}"),
-        _ => format!("{count} {what}s"),
     }
 }
 

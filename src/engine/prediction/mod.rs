@@ -229,21 +229,9 @@ impl Prediction {
         most: u64,
         only: Option<usize>,
     ) -> Result<u64, Stop> {
-        let graph = &self.graph;
-        self.pair_stamp += 1;
-        let mut pairs = Pairs {
-            plan,
-            graph,
-            slab,
-            known: &mut self.lines,
-            stamp: self.pair_stamp,
-            slopes: &self.slopes,
-            touched: &self.touched,
-            work: &mut self.work,
-            until: most,
-            all: false,
-        };
-        let edges = &self.touched[graph.edge_word..graph.watched_word];
+        let mut pairs = self.pairs(plan, slab, most);
+        let (graph, touched) = (pairs.graph, pairs.touched);
+        let edges = &touched[graph.edge_word..graph.watched_word];
         if let Some(edge) = only {
             if has(edges, edge)
                 && let Err(ends) = pairs.edge(edge)
@@ -258,10 +246,27 @@ impl Prediction {
             let alone = ends.0.filter(|&register| graph.alone[register as usize]);
             return Err(self.stop_at(edge, alone));
         }
-        for watched in bits(&self.touched[graph.watched_word..]) {
+        for watched in bits(&touched[graph.watched_word..]) {
             pairs.net(graph.watched_nets[watched])?;
         }
         Ok(pairs.until)
+    }
+
+    /// Returns lines that are exact for up to `most` ticks, none evaluated yet.
+    fn pairs<'w>(&'w mut self, plan: &'w Plan, slab: &'w [u64], most: u64) -> Pairs<'w> {
+        self.pair_stamp += 1;
+        Pairs {
+            plan,
+            graph: &self.graph,
+            slab,
+            known: &mut self.lines,
+            stamp: self.pair_stamp,
+            slopes: &self.slopes,
+            touched: &self.touched,
+            work: &mut self.work,
+            until: most,
+            all: false,
+        }
     }
 
     /// True if a register leaves its line at once, judged by this register alone.
@@ -288,19 +293,7 @@ impl Prediction {
             return false;
         }
         self.slopes[slot as usize] = slope;
-        self.pair_stamp += 1;
-        let mut pairs = Pairs {
-            plan,
-            graph,
-            slab,
-            known: &mut self.lines,
-            stamp: self.pair_stamp,
-            slopes: &self.slopes,
-            touched: &self.touched,
-            work: &mut self.work,
-            until: u64::MAX,
-            all: false,
-        };
+        let mut pairs = self.pairs(plan, slab, u64::MAX);
         let leaves_line = pairs.line(next).slope != slope || pairs.until <= 1;
         self.slopes[slot as usize] = 0;
         leaves_line

@@ -277,7 +277,7 @@ fn chosen(sets: &[String]) -> Result<Option<Runnable>, Fault> {
 }
 
 /// Allowed value of a missing key.
-const NO_DEFAULT: &str = "a value for it: it has no default";
+const NO_DEFAULT: &str = "a value, as the key has no default";
 
 /// Part of a scenario that decides how the rest is read.
 #[derive(Deserialize)]

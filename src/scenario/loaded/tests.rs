@@ -113,7 +113,7 @@ fn a_step_of_the_wrong_shape_is_refused_with_its_line() {
     let with = |steps: &str| refusal(&format!("circuit = \"lead_angle\"\n{steps}"), &[]);
     assert_eq!(
         with(""),
-        "s.toml: step: missing; allowed: a value for it: it has no default"
+        "s.toml: step: missing; allowed: a value, as the key has no default"
     );
     assert_eq!(
         with("step = 5\n"),
@@ -121,7 +121,7 @@ fn a_step_of_the_wrong_shape_is_refused_with_its_line() {
     );
     assert_eq!(
         with("[[step]]\ntarget = 1\n"),
-        "s.toml:2: speed_counts_per_s: missing; allowed: a value for it: it has no default"
+        "s.toml:2: speed_counts_per_s: missing; allowed: a value, as the key has no default"
     );
     assert_eq!(
         with("[[step]]\nspeed_counts_per_s = 1\ntarget = 1.5\n"),
@@ -143,7 +143,7 @@ fn a_fault_within_the_value_of_an_override_names_its_place() {
     let speed = "speed_counts_per_s=4";
     assert_eq!(
         refusal(STEPS, &["step=[{target=1}]"]),
-        "--set: step 0: speed_counts_per_s: missing; allowed: a value for it: it has no default"
+        "--set: step 0: speed_counts_per_s: missing; allowed: a value, as the key has no default"
     );
     assert_eq!(
         refusal(

@@ -1,6 +1,7 @@
 //! Errors of models.
 
 use crate::engine::{EngineError, InputError};
+use crate::nearest::meant;
 use std::io;
 
 /// Reason why a [`Model`](super::Model) cannot do something.
@@ -8,7 +9,7 @@ use std::io;
 #[non_exhaustive]
 pub enum ModelError {
     /// The catalogue has no such circuit.
-    #[error("no circuit is called {name}{}", did_you_mean(near.as_deref()))]
+    #[error("no circuit is called {name}{}", meant(near.as_deref()))]
     UnknownCircuit {
         /// Requested name.
         name: String,
@@ -66,7 +67,7 @@ pub enum ModelError {
         ticks: usize,
     },
     /// A handle or a snapshot is of another circuit.
-    #[error("the {what} is not of this {circuit}, but of another circuit")]
+    #[error("the {what} belongs to another circuit than this {circuit}")]
     OtherCircuit {
         /// `handle` or `snapshot`.
         what: &'static str,
@@ -91,10 +92,6 @@ impl ModelError {
     pub(super) fn at(tick: u64) -> impl FnOnce(InputError) -> ModelError {
         move |error| ModelError::Input { tick, error }
     }
-}
-
-fn did_you_mean(near: Option<&str>) -> String {
-    near.map_or_else(String::new, |near| format!("; did you mean {near}?"))
 }
 
 fn near_it(near: &[String]) -> String {

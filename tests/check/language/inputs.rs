@@ -2,7 +2,7 @@
 
 use super::*;
 use motion_rtl::engine::{InputError, Watch};
-use motion_rtl::sim::{Beside, Elaborated, RunError};
+use motion_rtl::sim::{Elaborated, RunError};
 use motion_rtl::trace::{Clock, StimulusFile, replay};
 
 /// Ports in of every kind.
@@ -44,23 +44,6 @@ impl Circuit for Ports {
         let shift = i.channel[1].shift;
         (Nothing, PortsReg { shift })
     }
-}
-
-/// Load that moves beside the circuit.
-#[derive(Clone)]
-struct Load;
-
-signals! { for Load as _c;
-    /// Signals of the load.
-    pub struct LoadSignals {
-        /// Position.
-        position: I(8),
-    }
-}
-
-impl Beside for Load {
-    const SCOPE: &'static str = "load";
-    type Signals<V: View> = LoadSignals<V>;
 }
 
 fn ports(shift: i64, count: u64) -> PortsIn<Value> {

@@ -3,6 +3,7 @@
 use expect_test::{Expect, expect};
 use motion_rtl::hdl::elaborate;
 use motion_rtl::prelude::*;
+use motion_rtl::sim::Beside;
 
 /// Compares the mistakes of a circuit; lines are counted from `from`.
 fn mistakes<C: Circuit>(circuit: &C, from: u32, expected: &Expect) {
@@ -15,6 +16,23 @@ fn mistakes<C: Circuit>(circuit: &C, from: u32, expected: &Expect) {
         text += &format!("{mistake}\n");
     }
     expected.assert_eq(&text);
+}
+
+/// Load that moves beside a circuit.
+#[derive(Clone)]
+struct Load;
+
+signals! { for Load as _c;
+    /// Signals of the load.
+    pub struct LoadSignals {
+        /// Position.
+        position: I(8),
+    }
+}
+
+impl Beside for Load {
+    const SCOPE: &'static str = "load";
+    type Signals<V: View> = LoadSignals<V>;
 }
 
 /// A counter with a mistake of choice.

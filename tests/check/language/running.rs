@@ -3,7 +3,7 @@
 use super::*;
 use motion_rtl::check::{Law, Lockstep, Pair, sweep};
 use motion_rtl::hdl::At;
-use motion_rtl::sim::{Beside, Each, Elaborated, InputRecorder, Sample, State, Watcher};
+use motion_rtl::sim::{Each, Elaborated, InputRecorder, Sample, State, Watcher};
 
 #[test]
 fn a_simulator_is_set_stepped_and_asked() {
@@ -26,23 +26,6 @@ fn a_simulator_is_set_stepped_and_asked() {
     simulator.reset();
     assert_eq!(simulator.registers().p.counter.q.sum, 3);
     assert_eq!(simulator.tick(), 10);
-}
-
-/// Load that moves beside a circuit.
-#[derive(Clone)]
-struct Load;
-
-signals! { for Load as _c;
-    /// Signals of the load.
-    pub struct LoadSignals {
-        /// Position.
-        position: I(8),
-    }
-}
-
-impl Beside for Load {
-    const SCOPE: &'static str = "load";
-    type Signals<V: View> = LoadSignals<V>;
 }
 
 #[test]

@@ -30,7 +30,7 @@ fn circuits_and_keys() {
         "{refused}"
     );
     assert!(
-        refused.contains("did you mean `widths.position`?"),
+        refused.contains("did you mean widths.position?"),
         "{refused}"
     );
     assert!(
@@ -163,12 +163,12 @@ fn handles_and_snapshots_of_other_circuits() {
     let mut model = interpolator();
     let mut wider = Model::new("linear_interpolator", &[pair("widths.position=21")]).unwrap();
     let x = wider.find("x").unwrap();
-    let wrong = "the handle is not of this linear_interpolator, but of another circuit";
+    let wrong = "the handle belongs to another circuit than this linear_interpolator";
     assert_eq!(text(model.get(x)), wrong);
     assert_eq!(text(model.set(wider.find("scan").unwrap(), 1)), wrong);
     assert_eq!(text(model.play(0, &[], &[x])), wrong);
     let snapshot = wider.snapshot();
-    let wrong = "the snapshot is not of this linear_interpolator, but of another circuit";
+    let wrong = "the snapshot belongs to another circuit than this linear_interpolator";
     assert_eq!(text(model.restore(&snapshot)), wrong);
     assert_eq!(model.tick(), 0);
     // An equal circuit is the same one.

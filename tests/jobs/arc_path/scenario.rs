@@ -92,7 +92,7 @@ fn every_key_is_read() {
 fn keys_of_the_wrong_shape_are_refused_with_their_line() {
     assert_eq!(
         refusal("[[piece]]\nvia_mm = [1, 2, 3]\n"),
-        "s.toml:2: to_mm: missing; allowed: a value for it: it has no default"
+        "s.toml:2: to_mm: missing; allowed: a value, as the key has no default"
     );
     assert_eq!(
         refusal("[[piece]]\nto_mm = [1, 2]\n"),
