@@ -255,7 +255,7 @@ impl<'s> Run<'s> {
     /// Evaluates the cases from `first` on; `first` is a multiple of [`LANES`].
     pub fn run(&mut self, first: u64) {
         for &(bit, slot) in &self.sliced.inputs {
-            self.slices[slot as usize] = std::array::from_fn(|word| {
+            self.slices[slot as usize] = words(|word| {
                 let within = WITHIN.get(bit as usize).copied();
                 let cases = first + 64 * word as u64;
                 within.unwrap_or(if cases >> bit & 1 == 1 { u64::MAX } else { 0 })
@@ -305,10 +305,21 @@ impl<'s> Run<'s> {
 
 #[inline(always)]
 fn each(a: &Slice, b: &Slice, gate: impl Fn(u64, u64) -> u64) -> Slice {
-    std::array::from_fn(|word| gate(a[word], b[word]))
+    words(|word| gate(a[word], b[word]))
 }
 
 #[inline(always)]
 fn each3(a: &Slice, b: &Slice, c: &Slice, gate: impl Fn(u64, u64, u64) -> u64) -> Slice {
-    std::array::from_fn(|word| gate(a[word], b[word], c[word]))
+    words(|word| gate(a[word], b[word], c[word]))
+}
+
+/// Returns a slice of these words. A loop, as what `array::from_fn` calls is inlined in some builds
+/// only, and takes longer than the gates where it is not.
+#[inline(always)]
+fn words(word: impl Fn(usize) -> u64) -> Slice {
+    let mut slice = [0; WORDS];
+    for (index, bits) in slice.iter_mut().enumerate() {
+        *bits = word(index);
+    }
+    slice
 }
