@@ -269,6 +269,7 @@ impl Engine {
     }
 
     /// Returns the number of leaves.
+    #[inline]
     pub fn leaves(&self) -> usize {
         self.program.plan.layout.leaves.len()
     }

@@ -9,7 +9,14 @@ use tempfile::TempDir;
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// Options of gcc for every program.
-const STRICT: [&str; 6] = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O2"];
+const STRICT: [&str; 6] = [
+    "-std=c99",
+    "-pedantic",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-O2",
+];
 
 /// Runs a command, and expects it to end well.
 fn run(command: &mut Command) -> String {
@@ -20,7 +27,11 @@ fn run(command: &mut Command) -> String {
 
 /// Exit code and output of a command.
 fn ended(command: &mut Command) -> (Option<i32>, String) {
-    let Output { status, stdout, stderr } = command.output().unwrap();
+    let Output {
+        status,
+        stdout,
+        stderr,
+    } = command.output().unwrap();
     let text = [stdout, stderr].map(|text| String::from_utf8(text).unwrap());
     (status.code(), text.concat())
 }
@@ -54,7 +65,8 @@ fn compiled(source: &str) -> PathBuf {
     let program = prefix().join(name);
     let mut gcc = Command::new("gcc");
     gcc.args(STRICT).arg(Path::new(ROOT).join(source));
-    gcc.args(pkg_config(&["--cflags", "--libs"])).arg("-pthread");
+    gcc.args(pkg_config(&["--cflags", "--libs"]))
+        .arg("-pthread");
     run(gcc.arg("-o").arg(&program));
     program
 }
@@ -70,10 +82,16 @@ fn started(program: &Path) -> Command {
 fn a_design_in_c_equals_the_model_and_a_fault_in_it_is_found() {
     let program = compiled("examples/enable_counter.c");
     let text = run(&mut started(&program));
-    assert!(text.starts_with("PASS: 100000 ticks compared, enable moved "), "{text}");
+    assert!(
+        text.starts_with("PASS: 100000 ticks compared, enable moved "),
+        "{text}"
+    );
     let (code, text) = ended(started(&program).arg("fault"));
     assert_eq!(code, Some(1), "{text}");
-    assert!(text.starts_with("FAIL: tick ") && text.contains(": enable: design 0, model 1"), "{text}");
+    assert!(
+        text.starts_with("FAIL: tick ") && text.contains(": enable: design 0, model 1"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -105,10 +123,16 @@ fn models_are_used_from_threads() {
 fn a_program_can_contain_the_library() {
     let program = prefix().join("contained");
     let mut gcc = Command::new("gcc");
-    gcc.args(STRICT).arg(Path::new(ROOT).join("examples/enable_counter.c"));
-    gcc.args(pkg_config(&["--cflags"])).arg(prefix().join("lib/libmotion_rtl.a"));
+    gcc.args(STRICT)
+        .arg(Path::new(ROOT).join("examples/enable_counter.c"));
+    gcc.args(pkg_config(&["--cflags"]))
+        .arg(prefix().join("lib/libmotion_rtl.a"));
     let libraries = pkg_config(&["--libs", "--static"]);
-    gcc.args(libraries.iter().filter(|library| *library != "-lmotion_rtl"));
+    gcc.args(
+        libraries
+            .iter()
+            .filter(|library| *library != "-lmotion_rtl"),
+    );
     run(gcc.arg("-o").arg(&program));
     assert!(run(&mut Command::new(&program)).starts_with("PASS"));
 }
@@ -118,11 +142,18 @@ fn a_missing_library_and_one_of_another_version_end_the_program_at_its_start() {
     let program = compiled("tests/c/abi.c");
     let (code, text) = ended(Command::new(&program).env_remove("LD_LIBRARY_PATH"));
     assert_eq!(code, Some(127), "{text}");
-    assert!(text.contains("libmotion_rtl.so.1: cannot open shared object file"), "{text}");
+    assert!(
+        text.contains("libmotion_rtl.so.1: cannot open shared object file"),
+        "{text}"
+    );
 
     let other = prefix().join("other");
     fs::create_dir(&other).unwrap();
-    fs::copy(prefix().join("lib/libmotion_rtl.so"), other.join("libmotion_rtl.so.2")).unwrap();
+    fs::copy(
+        prefix().join("lib/libmotion_rtl.so"),
+        other.join("libmotion_rtl.so.2"),
+    )
+    .unwrap();
     let (code, text) = ended(Command::new(&program).env("LD_LIBRARY_PATH", &other));
     assert_eq!(code, Some(127), "{text}");
     assert_eq!(run(&mut started(&program)), "ABI 1\n");
@@ -135,7 +166,50 @@ fn cpp_takes_the_header() {
     fs::write(&source, text).unwrap();
     let program = prefix().join("header_cpp");
     let mut gcc = Command::new("g++");
-    gcc.args(["-std=c++11", "-Wall", "-Wextra", "-Werror"]).arg(&source);
-    run(gcc.args(pkg_config(&["--cflags", "--libs"])).arg("-o").arg(&program));
+    gcc.args(["-std=c++11", "-Wall", "-Wextra", "-Werror"])
+        .arg(&source);
+    run(gcc
+        .args(pkg_config(&["--cflags", "--libs"]))
+        .arg("-o")
+        .arg(&program));
     run(&mut started(&program));
+}
+
+/// The blocks of code of a page: language and text.
+fn blocks(page: &str) -> Vec<(&str, &str)> {
+    let fenced = page.split("```").skip(1).step_by(2);
+    fenced.filter_map(|block| block.split_once('\n')).collect()
+}
+
+#[test]
+fn the_commands_of_the_page_end_with_a_pass() {
+    let page = include_str!("../../../rtl_notes/bindings/c.md");
+    let blocks = blocks(page);
+    let [("sh", commands), ("text", pass), ("text", fail)] = blocks[..3] else {
+        panic!("{:?}", &blocks[..3]);
+    };
+    let commands: Vec<&str> = commands.lines().collect();
+    assert_eq!(commands.len(), 5);
+    assert!(commands[0].starts_with("apt-get install"));
+    assert!(page.lines().count() <= 150);
+    // Without what needs root, and below a directory of the test.
+    let build = prefix().join("page");
+    fs::create_dir(&build).unwrap();
+    let commands = commands[1..]
+        .join("\n")
+        .replace("$PWD/build", build.to_str().unwrap());
+    let commands = commands.replace(
+        "build/enable_counter",
+        &format!("{}/enable_counter", build.display()),
+    );
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
+    let mut shell = Command::new("bash");
+    shell.args(["-euo", "pipefail", "-c", &commands]);
+    shell
+        .current_dir(Path::new(ROOT).join("../.."))
+        .env("CARGO_TARGET_DIR", target);
+    let (code, text) = ended(&mut shell);
+    assert!(code == Some(0) && text.contains(pass), "{commands}: {text}");
+    let (_, text) = ended(started(&build.join("enable_counter")).arg("fault"));
+    assert_eq!(text, fail);
 }

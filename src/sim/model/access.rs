@@ -17,6 +17,7 @@ impl Model {
     }
 
     /// Returns the handle of a signal by its [index](Handle::index).
+    #[inline]
     pub fn at(&self, index: usize) -> Option<Handle> {
         (index < self.engine.leaves()).then(|| self.handle(index))
     }
@@ -29,6 +30,7 @@ impl Model {
         names::all(self, &power_on)
     }
 
+    #[inline]
     pub(super) fn handle(&self, leaf: usize) -> Handle {
         Handle {
             leaf: leaf as u32,
