@@ -64,7 +64,7 @@ fn pairs(settings: &str) -> Result<Vec<Pair>, Failure> {
     let mut pairs = Vec::new();
     for (number, line) in (1..).zip(settings.lines()) {
         if !line.trim().is_empty() {
-            pairs.push(line.trim().parse().map_err(|error| {
+            pairs.push(line.trim().parse::<Pair>().map_err(|error| {
                 Failure::new(MRTL_SETTINGS, format!("settings, line {number}: {error}"))
             })?);
         }

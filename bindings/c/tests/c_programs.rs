@@ -4,7 +4,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
-use tempfile::TempDir;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
@@ -36,19 +35,25 @@ fn ended(command: &mut Command) -> (Option<i32>, String) {
     (status.code(), text.concat())
 }
 
-/// Installs into a directory, once.
+/// Build directory of this test.
+fn target() -> &'static Path {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap()
+}
+
+/// Installs into a directory of the tests, once.
 fn prefix() -> &'static Path {
-    static PREFIX: OnceLock<TempDir> = OnceLock::new();
-    let installed = || {
-        let directory = TempDir::new_in(env!("CARGO_TARGET_TMPDIR")).unwrap();
-        let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
+    static PREFIX: OnceLock<PathBuf> = OnceLock::new();
+    PREFIX.get_or_init(|| {
+        let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("c_programs");
+        if directory.exists() {
+            fs::remove_dir_all(&directory).unwrap();
+        }
         let mut make = Command::new("make");
         make.args(["-C", ROOT, "install"]);
-        make.arg(format!("PREFIX={}", directory.path().display()));
-        run(make.env("CARGO_TARGET_DIR", target).env_remove("DESTDIR"));
+        make.arg(format!("PREFIX={}", directory.display()));
+        run(make.env("CARGO_TARGET_DIR", target()).env_remove("DESTDIR"));
         directory
-    };
-    PREFIX.get_or_init(installed).path()
+    })
 }
 
 /// What `pkg-config` prints about the library.
@@ -181,17 +186,32 @@ fn blocks(page: &str) -> Vec<(&str, &str)> {
     fenced.filter_map(|block| block.split_once('\n')).collect()
 }
 
+const PAGE: &str = include_str!("../../../rtl_notes/bindings/c.md");
+
+#[test]
+fn the_code_of_the_page_is_compiled_and_runs() {
+    let blocks = blocks(PAGE);
+    let (_, code) = blocks
+        .iter()
+        .find(|(language, _)| *language == "c")
+        .unwrap();
+    let (head, body) = code.split_once("\n\n").unwrap();
+    let source = prefix().join("of_the_page.c");
+    let text = format!("{head}\nint main(void) {{\n{body}return position != 0;\n}}\n");
+    fs::write(&source, text).unwrap();
+    run(&mut started(&compiled(source.to_str().unwrap())));
+}
+
 #[test]
 fn the_commands_of_the_page_end_with_a_pass() {
-    let page = include_str!("../../../rtl_notes/bindings/c.md");
-    let blocks = blocks(page);
+    let blocks = blocks(PAGE);
     let [("sh", commands), ("text", pass), ("text", fail)] = blocks[..3] else {
         panic!("{:?}", &blocks[..3]);
     };
     let commands: Vec<&str> = commands.lines().collect();
     assert_eq!(commands.len(), 5);
     assert!(commands[0].starts_with("apt-get install"));
-    assert!(page.lines().count() <= 150);
+    assert!(PAGE.lines().count() <= 150);
     // Without what needs root, and below a directory of the test.
     let build = prefix().join("page");
     fs::create_dir(&build).unwrap();
@@ -202,12 +222,11 @@ fn the_commands_of_the_page_end_with_a_pass() {
         "build/enable_counter",
         &format!("{}/enable_counter", build.display()),
     );
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
     let mut shell = Command::new("bash");
     shell.args(["-euo", "pipefail", "-c", &commands]);
     shell
         .current_dir(Path::new(ROOT).join("../.."))
-        .env("CARGO_TARGET_DIR", target);
+        .env("CARGO_TARGET_DIR", target());
     let (code, text) = ended(&mut shell);
     assert!(code == Some(0) && text.contains(pass), "{commands}: {text}");
     let (_, text) = ended(started(&build.join("enable_counter")).arg("fault"));
