@@ -18,8 +18,10 @@
 #define REFUSED(model, call, code, part)                                                           \
     do {                                                                                           \
         char why_[4096];                                                                           \
+        int32_t length_;                                                                           \
         EXPECT(call, code);                                                                        \
-        EXPECT(mrtl_error(model, why_, sizeof why_), strlen(why_));                                \
+        length_ = mrtl_error(model, why_, sizeof why_);                                            \
+        EXPECT(length_, strlen(why_));                                                             \
         CONTAINS(why_, part);                                                                      \
     } while (0)
 

@@ -11,7 +11,7 @@ static void descriptions(void)
     char text[256];
 
     EXPECT(mrtl_abi(), MRTL_ABI);
-    EXPECT(mrtl_version(text, sizeof text), strlen(text));
+    EXPECT(mrtl_version(text, sizeof text), 5);
     EXPECT(strcmp(text, "0.1.0"), 0);
     EXPECT(mrtl_count(model), 4);
     EXPECT(mrtl_width(model, period), 8);
