@@ -54,7 +54,7 @@ int main(int argc, char **argv)
     struct design design = {0, argc > 1 && strcmp(argv[1], "fault") == 0};
     char text[1024];
     uint32_t state = 1;
-    uint8_t period = 0;
+    uint8_t period = 5;
     uint64_t enable, before = 0, moved = 0, tick;
     mrtl_model model;
     int32_t period_in, enable_out;
@@ -75,7 +75,7 @@ int main(int argc, char **argv)
 
     for (tick = 0; tick < TICKS; tick++) {
         if (random_word(&state) % 16 == 0)
-            period = (uint8_t)(random_word(&state) % 20);
+            period = (uint8_t)(random_word(&state) % 20 + 1);
         if (mrtl_set(model, period_in, period) != MRTL_OK)
             return failed(model, "mrtl_set");
         if (mrtl_get(model, enable_out, &enable) != MRTL_OK)

@@ -20,133 +20,133 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/*
- Version of this header. It changes whenever a function or a constant changes its meaning.
+/**
+ * Version of this header. It changes whenever a function or a constant changes its meaning.
  */
 #define MRTL_ABI 1
 
-/*
- No error.
+/**
+ * No error.
  */
 #define MRTL_OK 0
 
-/*
- No model, or no snapshot, has this handle.
+/**
+ * No model, or no snapshot, has this handle.
  */
 #define MRTL_WRONG_HANDLE -1
 
-/*
- A pointer is NULL.
+/**
+ * A pointer is NULL.
  */
 #define MRTL_NULL -2
 
-/*
- A string is not UTF-8.
+/**
+ * A string is not UTF-8.
  */
 #define MRTL_NOT_UTF8 -3
 
-/*
- The catalogue has no circuit, or the circuit has no signal, of this name.
+/**
+ * The catalogue has no circuit, or the circuit has no signal, of this name.
  */
 #define MRTL_UNKNOWN -4
 
-/*
- The circuit does not take the settings.
+/**
+ * The circuit does not take the settings.
  */
 #define MRTL_SETTINGS -5
 
-/*
- The circuit cannot be run.
+/**
+ * The circuit cannot be run.
  */
 #define MRTL_CIRCUIT -6
 
-/*
- No signal has this index.
+/**
+ * No signal has this index.
  */
 #define MRTL_WRONG_INDEX -7
 
-/*
- The signal is not an input port and cannot be set.
+/**
+ * The signal is not an input port and cannot be set.
  */
 #define MRTL_NO_INPUT -8
 
-/*
- The value does not fit the port.
+/**
+ * The value does not fit the port.
  */
 #define MRTL_VALUE -9
 
-/*
- The snapshot is of another circuit.
+/**
+ * The snapshot is of another circuit.
  */
 #define MRTL_OTHER_CIRCUIT -10
 
-/*
- Waves cannot be begun or written, or do not allow the call.
+/**
+ * Waves cannot be begun or written, or do not allow the call.
  */
 #define MRTL_WAVES -11
 
-/*
- The bench was made for another version of the ABI or for other ports.
+/**
+ * The bench was made for another version of the ABI or for other ports.
  */
 #define MRTL_MISMATCH -12
 
-/*
- Another thread is inside a call with this handle.
+/**
+ * Another thread is inside a call with this handle.
  */
 #define MRTL_BUSY -13
 
-/*
- A fault inside the library, in this call or an earlier one. The model can only be freed.
+/**
+ * A fault inside the library, in this call or an earlier one. The model can only be freed.
  */
 #define MRTL_PANIC -14
 
-/*
- Too many models, or too many snapshots, at once: 65,536.
+/**
+ * Too many models, or too many snapshots, at once: 65,536.
  */
 #define MRTL_FULL -15
 
-/*
- An error of another kind.
+/**
+ * An error of another kind.
  */
 #define MRTL_OTHER -16
 
-/*
- Direction of a signal that is not a port.
+/**
+ * Direction of a signal that is not a port.
  */
 #define MRTL_INNER 0
 
-/*
- Direction of an input port.
+/**
+ * Direction of an input port.
  */
 #define MRTL_IN 1
 
-/*
- Direction of an output port.
+/**
+ * Direction of an output port.
  */
 #define MRTL_OUT 2
 
-/*
- Role of an input port of the circuit or of a part.
+/**
+ * Role of an input port of the circuit or of a part.
  */
 #define MRTL_INPUT 0
 
-/*
- Role of a flip-flop or a word of a memory.
+/**
+ * Role of a flip-flop or a word of a memory.
  */
 #define MRTL_REGISTER 1
 
-/*
- Role of a combinational net.
+/**
+ * Role of a combinational net.
  */
 #define MRTL_NET 2
 
-/*
- Handle of a model; always positive. Negative numbers are error codes.
+/**
+ * Handle of a model; always positive. Negative numbers are error codes.
  */
 typedef int32_t mrtl_model;
 
-/*
- Handle of a snapshot; always positive. Negative numbers are error codes.
+/**
+ * Handle of a snapshot; always positive. Negative numbers are error codes.
  */
 typedef int32_t mrtl_snapshot;
 
@@ -154,162 +154,162 @@ typedef int32_t mrtl_snapshot;
 extern "C" {
 #endif // __cplusplus
 
-/*
- Returns the ABI version of the library; compare it with MRTL_ABI of the header.
+/**
+ * Returns the ABI version of the library; compare it with MRTL_ABI of the header.
  */
 uint32_t mrtl_abi(void);
 
-/*
- Copies the version of the library, such as "0.1.0"; returns its length.
+/**
+ * Copies the version of the library, such as "0.1.0"; returns its length.
  */
 int32_t mrtl_version(char *text, size_t room);
 
-/*
- Creates a model at power-on, before tick 0, with all input ports low; returns its handle.
-
- `circuit` is a name that `motion-rtl list` prints. `settings` has one `key=value` per line, as
- `motion-rtl list CIRCUIT` prints them; NULL or "" for none. On an error, the text of it is
- copied to `error`, which may be NULL if `room` is 0.
+/**
+ * Creates a model at power-on, before tick 0, with all input ports low; returns its handle.
+ *
+ * `circuit` is a name that `motion-rtl list` prints. `settings` has one `key=value` per line, as
+ * `motion-rtl list CIRCUIT` prints them; NULL or "" for none. On an error, the text of it is
+ * copied to `error`, which may be NULL if `room` is 0.
  */
 mrtl_model mrtl_new(const char *circuit, const char *settings, char *error, size_t room);
 
-/*
- Frees a model; its handle is wrong from then on. Waves that are not finished are dropped.
+/**
+ * Frees a model; its handle is wrong from then on. Waves that are not finished are dropped.
  */
 int32_t mrtl_free(mrtl_model model);
 
-/*
- Copies the text of the model's last error; returns its length, 0 if there was none. A wrong
- handle is an error here too, and its text is copied.
+/**
+ * Copies the text of the model's last error; returns its length, 0 if there was none. A wrong
+ * handle is an error here too, and its text is copied.
  */
 int32_t mrtl_error(mrtl_model model, char *text, size_t room);
 
-/*
- Saves the state of this tick: input ports, registers, memories; returns its handle.
+/**
+ * Saves the state of this tick: input ports, registers, memories; returns its handle.
  */
 mrtl_snapshot mrtl_save(mrtl_model model);
 
-/*
- Continues from a snapshot of this model or of another model of the same circuit and settings.
- Refused while waves are written.
+/**
+ * Continues from a snapshot of this model or of another model of the same circuit and settings.
+ * Refused while waves are written.
  */
 int32_t mrtl_restore(mrtl_model model, mrtl_snapshot snapshot);
 
-/*
- Frees a snapshot; its handle is wrong from then on.
+/**
+ * Frees a snapshot; its handle is wrong from then on.
  */
 int32_t mrtl_free_snapshot(mrtl_snapshot snapshot);
 
-/*
- Checks that a bench fits a model: `abi` is MRTL_ABI of the header that the bench was compiled
- with, `ports` the hash of the ports that it was written for.
-
- The hash is FNV-1a with 64 bits over one line per port, in the order of the indices:
- `in period 8 unsigned` and a newline. The text of the error has the model's hash and ports.
+/**
+ * Checks that a bench fits a model: `abi` is MRTL_ABI of the header that the bench was compiled
+ * with, `ports` the hash of the ports that it was written for.
+ *
+ * The hash is FNV-1a with 64 bits over one line per port, in the order of the indices:
+ * `in period 8 unsigned` and a newline. The text of the error has the model's hash and ports.
  */
 int32_t mrtl_check(mrtl_model model, uint32_t abi, uint64_t ports);
 
-/*
- Returns the number of signals: ports, registers, words of memories, nets. Their indices begin
- at 0.
+/**
+ * Returns the number of signals: ports, registers, words of memories, nets. Their indices begin
+ * at 0.
  */
 int32_t mrtl_count(mrtl_model model);
 
-/*
- Returns the index of a signal by its name: a path as in the waves (`rates.scan_period`), a name
- in the printed Verilog (`rates_scan_period`), or a word of a memory (`memory[3]`).
+/**
+ * Returns the index of a signal by its name: a path as in the waves (`rates.scan_period`), a name
+ * in the printed Verilog (`rates_scan_period`), or a word of a memory (`memory[3]`).
  */
 int32_t mrtl_find(mrtl_model model, const char *name);
 
-/*
- Copies the path of a signal below its circuit; returns its length.
+/**
+ * Copies the path of a signal below its circuit; returns its length.
  */
 int32_t mrtl_name(mrtl_model model, int32_t index, char *text, size_t room);
 
-/*
- Copies the name of a signal below the circuit's Verilog module; returns its length.
+/**
+ * Copies the name of a signal below the circuit's Verilog module; returns its length.
  */
 int32_t mrtl_verilog_name(mrtl_model model, int32_t index, char *text, size_t room);
 
-/*
- Copies the documentation of a signal, one line that may be empty; returns its length.
+/**
+ * Copies the documentation of a signal, one line that may be empty; returns its length.
  */
 int32_t mrtl_doc(mrtl_model model, int32_t index, char *text, size_t room);
 
-/*
- Returns the width of a signal in bits, 1 to 64.
+/**
+ * Returns the width of a signal in bits, 1 to 64.
  */
 int32_t mrtl_width(mrtl_model model, int32_t index);
 
-/*
- Returns 1 if a signal is a two's complement number, 0 otherwise.
+/**
+ * Returns 1 if a signal is a two's complement number, 0 otherwise.
  */
 int32_t mrtl_is_signed(mrtl_model model, int32_t index);
 
-/*
- Returns MRTL_IN or MRTL_OUT for a port of the circuit, MRTL_INNER for other signals.
+/**
+ * Returns MRTL_IN or MRTL_OUT for a port of the circuit, MRTL_INNER for other signals.
  */
 int32_t mrtl_direction(mrtl_model model, int32_t index);
 
-/*
- Returns MRTL_INPUT, MRTL_REGISTER or MRTL_NET: the role of a signal in its own circuit, which
- may be a part of the model's.
+/**
+ * Returns MRTL_INPUT, MRTL_REGISTER or MRTL_NET: the role of a signal in its own circuit, which
+ * may be a part of the model's.
  */
 int32_t mrtl_role(mrtl_model model, int32_t index);
 
-/*
- Sets an input port to the bits of a word, from this tick on. A word that is wider than the port
- is an error, and nothing is set then.
+/**
+ * Sets an input port to the bits of a word, from this tick on. A word that is wider than the port
+ * is an error, and nothing is set then.
  */
 int32_t mrtl_set(mrtl_model model, int32_t port, uint64_t bits);
 
-/*
- Sets an input port to a number, from this tick on. A number that does not fit the port is an
- error, and nothing is set then.
+/**
+ * Sets an input port to a number, from this tick on. A number that does not fit the port is an
+ * error, and nothing is set then.
  */
 int32_t mrtl_set_signed(mrtl_model model, int32_t port, int64_t number);
 
-/*
- Reads the bits of any signal in this tick, settled, with zeros above its width.
+/**
+ * Reads the bits of any signal in this tick, settled, with zeros above its width.
  */
 int32_t mrtl_get(mrtl_model model, int32_t index, uint64_t *bits);
 
-/*
- Reads any signal in this tick, settled, as a two's complement number of its width.
+/**
+ * Reads any signal in this tick, settled, as a two's complement number of its width.
  */
 int32_t mrtl_get_signed(mrtl_model model, int32_t index, int64_t *number);
 
-/*
- Advances by `ticks` ticks with constant input ports.
+/**
+ * Advances by `ticks` ticks with constant input ports.
  */
 int32_t mrtl_step(mrtl_model model, uint64_t ticks);
 
-/*
- Advances by `ticks` ticks as mrtl_step does, but jumps over ticks in which registers do nothing
- but count. The state afterwards is the same.
+/**
+ * Advances by `ticks` ticks as mrtl_step does, but jumps over ticks in which registers do nothing
+ * but count. The state afterwards is the same.
  */
 int32_t mrtl_fast_forward(mrtl_model model, uint64_t ticks);
 
-/*
- Advances to the next tick by a synchronous reset. Flip-flops have their power-on values then;
- memories and shift registers take the edge as usual.
+/**
+ * Advances to the next tick by a synchronous reset. Flip-flops have their power-on values then;
+ * memories and shift registers take the edge as usual.
  */
 int32_t mrtl_reset(mrtl_model model);
 
-/*
- Reads the number of this tick, from 0.
+/**
+ * Reads the number of this tick, from 0.
  */
 int32_t mrtl_tick(mrtl_model model, uint64_t *tick);
 
-/*
- Begins waves of all signals from this tick on: a VCD or an FST, by the extension of `path`.
- The directory is created if necessary.
+/**
+ * Begins waves of all signals from this tick on: a VCD or an FST, by the extension of `path`.
+ * The directory is created if necessary.
  */
 int32_t mrtl_waves(mrtl_model model, const char *path);
 
-/*
- Ends the waves with the tick before this one. The waveform and a GTKWave save file beside it
- appear complete; without this call there are none. An error if no waves were begun.
+/**
+ * Ends the waves with the tick before this one. The waveform and a GTKWave save file beside it
+ * appear complete; without this call there are none. An error if no waves were begun.
  */
 int32_t mrtl_finish_waves(mrtl_model model);
 
