@@ -1,7 +1,8 @@
 //! Commands that the documents show: each is run, and each filter of `cargo test` selects a test.
 //!
 //! `.ci/run` itself runs the README's first two commands, `mutate` and the benches;
-//! `cosim::golden_model` runs those of `golden_model.md` and compares what they print.
+//! `cosim::golden_model` runs those of `golden_model.md` and compares what they print; tests in
+//! `bindings` run those of the pages on other languages.
 
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -52,6 +53,9 @@ const BROUGHT: [(&str, &str); 2] = [
     ("tb.vcd", "cp waves/bracket.vcd tb.vcd"),
 ];
 
+/// Documents whose commands are not run here.
+const RUN_ELSEWHERE: [&str; 2] = ["rtl_notes/golden_model.md", "rtl_notes/bindings/c.md"];
+
 /// Circuits that the walk-through has the reader write.
 const CIRCUITS_OF_THE_READER: [&str; 2] = ["debouncer", "limit_switch"];
 
@@ -78,7 +82,7 @@ fn units() -> Vec<Unit> {
             let name = format!("{folder}/{}", entry.file_name().to_str().unwrap());
             if entry.file_type().unwrap().is_dir() {
                 folders.push(name);
-            } else if name.ends_with(".md") && name != "rtl_notes/golden_model.md" {
+            } else if name.ends_with(".md") && !RUN_ELSEWHERE.contains(&name.as_str()) {
                 documents.push(name);
             }
         }
