@@ -2,6 +2,7 @@
 
 use super::names;
 use super::{Handle, Model, ModelError, SignalInfo, SignalRef};
+use crate::netlist::Shape;
 use crate::sim::RunError;
 
 impl Model {
@@ -28,6 +29,29 @@ impl Model {
         let mut power_on = self.engine.at_power_on();
         power_on.settle();
         names::all(self, &power_on)
+    }
+
+    /// Returns kind and width of a signal.
+    ///
+    /// ```
+    /// use motion_rtl::Model;
+    /// use motion_rtl::netlist::unsigned;
+    ///
+    /// let counter = Model::new("enable_counter", &["width=8".parse()?])?;
+    /// assert_eq!(counter.shape("count")?, unsigned(8));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Returns an error if there is no such signal.
+    pub fn shape(&self, signal: impl SignalRef) -> Result<Shape, ModelError> {
+        let leaf = self.leaf(signal)?;
+        Ok(self.shape_of(leaf))
+    }
+
+    #[inline]
+    pub(super) fn shape_of(&self, leaf: usize) -> Shape {
+        self.circuit.elaborated.outline().leaves[leaf].shape
     }
 
     #[inline]

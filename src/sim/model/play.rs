@@ -76,7 +76,7 @@ impl Model {
 
     /// Returns a leaf and the number of bits above its sign, 0 if it has none.
     fn seen(&self, leaf: usize) -> (usize, u32) {
-        let shape = self.circuit.elaborated.outline().leaves[leaf].shape;
+        let shape = self.shape_of(leaf);
         let above = match shape.kind {
             Kind::Signed => 64 - shape.width as u32,
             Kind::Bit | Kind::Unsigned => 0,
