@@ -53,8 +53,8 @@ const BROUGHT: [(&str, &str); 2] = [
     ("tb.vcd", "cp waves/bracket.vcd tb.vcd"),
 ];
 
-/// Documents whose commands are not run here.
-const RUN_ELSEWHERE: [&str; 2] = ["rtl_notes/golden_model.md", "rtl_notes/bindings/c.md"];
+/// Documents whose commands are not run here, and a folder of such documents.
+const RUN_ELSEWHERE: [&str; 2] = ["rtl_notes/golden_model.md", "rtl_notes/bindings/"];
 
 /// Circuits that the walk-through has the reader write.
 const CIRCUITS_OF_THE_READER: [&str; 2] = ["debouncer", "limit_switch"];
@@ -82,7 +82,9 @@ fn units() -> Vec<Unit> {
             let name = format!("{folder}/{}", entry.file_name().to_str().unwrap());
             if entry.file_type().unwrap().is_dir() {
                 folders.push(name);
-            } else if name.ends_with(".md") && !RUN_ELSEWHERE.contains(&name.as_str()) {
+            } else if name.ends_with(".md")
+                && !RUN_ELSEWHERE.iter().any(|start| name.starts_with(start))
+            {
                 documents.push(name);
             }
         }

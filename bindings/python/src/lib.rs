@@ -1,0 +1,25 @@
+//! Python module of motion-rtl; the package around it is in `python/motion_rtl`.
+
+mod arrays;
+mod compare;
+mod errors;
+mod key;
+mod model;
+mod settings;
+mod shared;
+mod signal;
+mod snapshot;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+fn _motion_rtl(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<model::Model>()?;
+    module.add_class::<snapshot::Snapshot>()?;
+    module.add_class::<signal::Signal>()?;
+    module.add_class::<compare::Report>()?;
+    module.add_function(wrap_pyfunction!(compare::compare, module)?)?;
+    module.add_function(wrap_pyfunction!(settings::pairs, module)?)?;
+    Ok(())
+}
