@@ -25,6 +25,8 @@ def test_a_counter_counts(counter):
 
 
 def test_a_bit_is_a_bool_and_a_word_an_int(counter):
+    assert counter["enable"] is True
+    counter["period"] = 2
     assert counter["enable"] is False
     assert type(counter["count"]) is int
 

@@ -44,7 +44,7 @@ def stubbed():
             yield pytest.param(getattr(_motion_rtl, node.name), node, id=node.name)
 
 
-@pytest.mark.parametrize(("function", "stub"), stubbed())
+@pytest.mark.parametrize(("function", "stub"), list(stubbed()))
 def test_parameters_are_those_of_the_stubs(function, stub):
     names = [name for name in inspect.signature(function).parameters if name != "self"]
     assert names == parameters(stub.args)
