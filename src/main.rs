@@ -6,5 +6,5 @@ mod cli;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    cli::program::main()
+    ExitCode::from(cli::program::main(std::env::args_os().collect()))
 }

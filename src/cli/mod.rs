@@ -62,7 +62,6 @@ use motion_rtl::registry::WrongPair;
 use motion_rtl::sim::RunError;
 use std::borrow::Cow;
 use std::io::{self, Write};
-use std::process::ExitCode;
 
 /// Failures of a command, each with its exit code.
 #[derive(Debug, thiserror::Error)]
@@ -131,10 +130,10 @@ impl Failure {
     }
 
     /// The exit code.
-    pub fn code(&self) -> ExitCode {
+    pub fn code(&self) -> u8 {
         match self {
-            Failure::Check(_) | Failure::Run(RunError::Violation { .. }) => ExitCode::from(1),
-            _ => ExitCode::from(2),
+            Failure::Check(_) | Failure::Run(RunError::Violation { .. }) => 1,
+            _ => 2,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 macro_rules! notes {
     ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/", $name)))),*]
+        &[$(($name, include_str!(concat!("../../", $name)))),*]
     };
 }
 

@@ -7,11 +7,11 @@ use motion_rtl::nearest::did_you_mean;
 use std::ffi::OsString;
 use std::io::{Write as _, stderr};
 use std::path::Path;
-use std::process::ExitCode;
 
 /// Motion-control patents as cycle-accurate RTL models: drawings in, pulses and waves out.
 #[derive(Debug, Parser)]
 #[command(
+    name = "motion-rtl",
     version = version::short(),
     long_version = version::long(),
     about,
@@ -77,9 +77,9 @@ pub fn description() -> clap::Command {
     Arguments::command()
 }
 
-/// Runs the program.
-pub fn main() -> ExitCode {
-    let words: Vec<_> = std::env::args_os().collect();
+/// Runs the program with the words of its command line, of which the first is its name; returns
+/// the exit code.
+pub fn main(words: Vec<OsString>) -> u8 {
     voice::look_ahead(&words);
     if let Err(failure) = limits::check() {
         return failed(&failure);
@@ -100,18 +100,18 @@ pub fn main() -> ExitCode {
         }
         Err(error) if error.use_stderr() => {
             errors::usage(&error);
-            return ExitCode::from(2);
+            return 2;
         }
         // Help or the version.
         Err(asked) => printed(asked.print()),
     };
     match done {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(failure) => failed(&failure),
     }
 }
 
-fn failed(failure: &Failure) -> ExitCode {
+fn failed(failure: &Failure) -> u8 {
     // If standard error is closed, only the exit code remains.
     let _ = writeln!(stderr(), "{}", failure.report());
     errors::as_json(failure);

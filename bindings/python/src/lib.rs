@@ -5,6 +5,7 @@ mod compare;
 mod errors;
 mod key;
 mod model;
+mod program;
 mod settings;
 mod shared;
 mod signal;
@@ -21,5 +22,6 @@ fn _motion_rtl(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<compare::Report>()?;
     module.add_function(wrap_pyfunction!(compare::compare, module)?)?;
     module.add_function(wrap_pyfunction!(settings::pairs, module)?)?;
+    module.add_function(wrap_pyfunction!(program::main, module)?)?;
     Ok(())
 }

@@ -1,8 +1,8 @@
-"""Jobs, on a program that is built beside the package."""
+"""Jobs, and the program that runs them."""
 
-import os
-import shutil
-import stat
+import json
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -11,11 +11,8 @@ import pytest
 import motion_rtl as mr
 
 WAVES = Path(__file__).parents[3] / "waves"
-HAS_PROGRAM = shutil.which(os.environ.get("MOTION_RTL", "motion-rtl")) is not None
-needs_program = pytest.mark.skipif(not HAS_PROGRAM, reason="needs the program motion-rtl")
 
 
-@needs_program
 def test_a_job_gives_summary_and_series():
     result = mr.Job(WAVES / "weld.toml", feed_mm_per_min=300).run()
     assert result.exact
@@ -28,7 +25,6 @@ def test_a_job_gives_summary_and_series():
     assert "rows" in repr(result)
 
 
-@needs_program
 def test_a_wrong_setting_is_refused():
     with pytest.raises(ValueError, match="feed_mm_per_min"):
         mr.Job(WAVES / "weld.toml", feed_mm_per_mn=300).run()
@@ -36,7 +32,6 @@ def test_a_wrong_setting_is_refused():
         mr.Job(WAVES / "weld.toml", feed_mm_per_min=-1).run()
 
 
-@needs_program
 def test_a_wrong_file_is_refused(tmp_path):
     path = tmp_path / "job.toml"
     path.write_text('circuit = "machin"\n')
@@ -44,30 +39,49 @@ def test_a_wrong_file_is_refused(tmp_path):
         mr.Job(path).run()
 
 
-def test_missing_files_are_told(tmp_path):
+def test_a_missing_file_is_told(tmp_path):
     with pytest.raises(FileNotFoundError, match="nothing.toml"):
         mr.Job(tmp_path / "nothing.toml").run()
-    with pytest.raises(FileNotFoundError, match="no such program"):
-        mr.Job(WAVES / "weld.toml", program=tmp_path / "motion-rtl").run()
 
 
-def script(path, text):
-    path.write_text(f"#!/bin/sh\n{text}\n")
-    path.chmod(path.stat().st_mode | stat.S_IXUSR)
-    return path
+def test_a_program_that_fails_is_told(monkeypatch):
+    monkeypatch.setattr(sys, "executable", "/bin/false")
+    with pytest.raises(mr.JobError, match="motion-rtl ended with code 1"):
+        mr.Job(WAVES / "weld.toml").run()
+    monkeypatch.setattr(sys, "executable", "")
+    with pytest.raises(mr.JobError, match="sys.executable is empty"):
+        mr.Job(WAVES / "weld.toml").run()
 
 
-def test_a_program_of_another_version_is_refused(tmp_path):
-    program = script(tmp_path / "motion-rtl", "echo motion-rtl 99.0.0")
-    with pytest.raises(mr.JobError, match="is motion-rtl 99.0.0; allowed: motion-rtl"):
-        mr.Job(WAVES / "weld.toml", program=program).run()
+def test_files_of_the_working_directory_are_not_imported(tmp_path, monkeypatch):
+    (tmp_path / "motion_rtl.py").write_text("raise SystemExit(7)")
+    monkeypatch.chdir(tmp_path)
+    assert mr.Job(WAVES / "weld.toml").run(series=False).exact
 
 
-def test_a_program_that_fails_is_told(tmp_path):
-    text = f'if [ "$1" = -V ]; then echo motion-rtl {mr.__version__}; else echo broken >&2; exit 3; fi'
-    program = script(tmp_path / "motion-rtl", text)
-    with pytest.raises(mr.JobError, match="broken"):
-        mr.Job(WAVES / "weld.toml", program=program).run()
+def program(*words):
+    words = [sys.executable, "-m", "motion_rtl", *words]
+    return subprocess.run(words, capture_output=True, text=True, check=False)
+
+
+def test_the_package_has_the_program(tmp_path):
+    done = program("-V")
+    assert (done.stdout, done.returncode) == (f"motion-rtl {mr.__version__}\n", 0)
+    assert "features: cli, jit\n" in program("--version").stdout
+    assert "Usage: motion-rtl " in program("--help").stdout
+    done = program("lst")
+    assert done.returncode == 2 and "did you mean list" in done.stderr
+    done = program("list", "--json")
+    circuits = json.loads(done.stdout)["circuits"]
+    assert "machine" in {circuit["name"] for circuit in circuits}
+    done = program("verilog", "enable_counter", "--out", str(tmp_path))
+    assert done.returncode == 0 and (tmp_path / "enable_counter.v").exists()
+
+
+def test_the_command_is_installed():
+    command = Path(sys.executable).with_name("motion-rtl")
+    done = subprocess.run([command, "-V"], capture_output=True, text=True, check=True)
+    assert done.stdout == f"motion-rtl {mr.__version__}\n"
 
 
 def test_a_job_is_shown():

@@ -7,35 +7,18 @@ from pathlib import Path
 
 import motion_rtl as mr
 
-from test_job import needs_program
-
 ROOT = Path(__file__).parents[3]
 PAGE = (ROOT / "rtl_notes/bindings/python.md").read_text()
 EXAMPLE = Path(__file__).parents[1] / "examples" / "counter.py"
-BLOCK = re.compile(r"^(<!-- needs the program -->\n)?```python\n(.*?)^```$", re.M | re.S)
-
-
-def code(with_jobs):
-    blocks = BLOCK.findall(PAGE)
-    assert sum(bool(needs) for needs, _ in blocks) == 1 and len(blocks) > 5
-    return "\n".join(text for needs, text in blocks if with_jobs or not needs)
-
-
-def run(code, tmp_path):
-    (tmp_path / "waves").symlink_to(ROOT / "waves")
-    return subprocess.run(
-        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+BLOCK = re.compile(r"^```python\n(.*?)^```$", re.M | re.S)
 
 
 def test_the_code_of_the_page_runs(tmp_path):
-    done = run(code(False), tmp_path)
-    assert done.returncode == 0, done.stderr
-
-
-@needs_program
-def test_the_jobs_of_the_page_run(tmp_path):
-    done = run(code(True), tmp_path)
+    blocks = BLOCK.findall(PAGE)
+    assert len(blocks) > 5
+    (tmp_path / "waves").symlink_to(ROOT / "waves")
+    words = [sys.executable, "-c", "\n".join(blocks)]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
 
 

@@ -1,11 +1,11 @@
-"""Jobs, which the program ``motion-rtl`` runs."""
+"""Jobs, which the program ``motion-rtl`` of this package runs."""
 
 from __future__ import annotations
 
 import json
 import os
-import shutil
 import subprocess
+import sys
 import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,10 +14,17 @@ from typing import Any
 
 import numpy as np
 
-from ._motion_rtl import __version__, _pairs
+from ._motion_rtl import _pairs
 
-#: Environment variable with the path of the program.
-VARIABLE = "MOTION_RTL"
+#: Program in a process of its own, since it ends that process when a signal ends it. Its package is
+#: this one, whatever the working directory holds.
+_PROGRAM = """
+import sys
+package = sys.argv.pop(1)
+sys.path[:] = [path for path in sys.path if path] + [package]
+from motion_rtl.__main__ import main
+main()
+"""
 
 
 class JobError(RuntimeError):
@@ -60,9 +67,7 @@ class Job:
     stand in a dict, as in ``Job("job.toml", {"program.g54_mm": [1, 2, 0]})``. ``motion-rtl keys
     CIRCUIT`` prints all keys with their units.
 
-    The program ``motion-rtl`` runs the job. It is searched for in the environment variable
-    ``MOTION_RTL`` and then in ``PATH``, unless `program` names it, and it has to be of the version
-    of this package.
+    The program ``motion-rtl`` of this package runs the job, in a process of its own.
     """
 
     def __init__(
@@ -70,13 +75,10 @@ class Job:
         path: str | os.PathLike[str],
         settings: Mapping[str, Any] | None = None,
         /,
-        *,
-        program: str | os.PathLike[str] | None = None,
         **keywords: Any,
     ) -> None:
         self.path = Path(path)
         self.settings: list[str] = _pairs(settings, keywords)
-        self._program = program
 
     def __repr__(self) -> str:
         return f"<Job {' '.join([str(self.path), *self.settings])}>"
@@ -100,16 +102,15 @@ class Job:
         ValueError
             The file or a setting is refused; the text has file, line, key and the allowed values.
         FileNotFoundError
-            There is no such file, or no program.
+            There is no such file.
         JobError
-            The program is of another version, or it failed.
+            The program failed.
         """
         if not self.path.exists():
             raise FileNotFoundError(f"{self.path}: no such file")
-        program = _program(self._program)
         with tempfile.TemporaryDirectory(prefix="motion-rtl-") as directory:
             rows = Path(directory, "series.npy")
-            words = [program, "run", "--json", "--quiet", "--no-vcd"]
+            words = ["run", "--json", "--quiet", "--no-vcd"]
             words += ["--out", directory]
             words += [word for pair in self.settings for word in ("--set", pair)]
             if series:
@@ -117,29 +118,19 @@ class Job:
             if series_every is not None:
                 words += ["--series-every", str(series_every)]
             words += ["--", os.fspath(self.path)]
-            done = subprocess.run(words, capture_output=True, text=True, check=False)
+            done = _run(words)
             summary = _summary(done)
             arrays = _columns(rows) if series else {}
         return Result(summary, arrays, done.returncode == 0)
 
 
-def _program(given: str | os.PathLike[str] | None) -> str:
-    """Return the path of the program, whose version is that of this package."""
-    name = os.fspath(given or os.environ.get(VARIABLE) or "motion-rtl")
-    program = shutil.which(name)
-    if program is None:
-        raise FileNotFoundError(
-            f"{name}: no such program; allowed: the path of motion-rtl in {VARIABLE}, in PATH, "
-            "or given as program"
-        )
-    told = subprocess.run([program, "-V"], capture_output=True, text=True, check=False)
-    version = told.stdout.split()[1:2]
-    if version != [__version__]:
-        raise JobError(
-            f"{program}: is {told.stdout.strip() or 'no motion-rtl'}; "
-            f"allowed: motion-rtl {__version__}, the version of this package"
-        )
-    return program
+def _run(words: list[str]) -> subprocess.CompletedProcess[str]:
+    """Run the program with the words of its command line."""
+    if not sys.executable:
+        raise JobError("sys.executable is empty, so that no process can be started")
+    package = os.fspath(Path(__file__).parents[1])
+    words = [sys.executable, "-c", _PROGRAM, package, *words]
+    return subprocess.run(words, capture_output=True, text=True, check=False)
 
 
 def _summary(done: subprocess.CompletedProcess[str]) -> dict[str, Any]:
