@@ -11,15 +11,14 @@ pub fn read(
     keywords: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Vec<Pair>> {
     let mut pairs = Vec::new();
-    for table in [settings, keywords.map(|keywords| keywords.as_any())] {
-        if let Some(table) = table {
-            let Ok(table) = table.cast::<PyMapping>() else {
-                let given = table.get_type().name()?;
-                let text = format!("settings are a dict or keywords, not {given}");
-                return Err(PyTypeError::new_err(text));
-            };
-            add(&mut pairs, table, "")?;
-        }
+    let tables = [settings, keywords.map(|keywords| keywords.as_any())];
+    for table in tables.into_iter().flatten() {
+        let Ok(table) = table.cast::<PyMapping>() else {
+            let given = table.get_type().name()?;
+            let text = format!("settings are a dict or keywords, not {given}");
+            return Err(PyTypeError::new_err(text));
+        };
+        add(&mut pairs, table, "")?;
     }
     for (index, pair) in pairs.iter().enumerate() {
         if pairs[..index].iter().any(|before| before.key == pair.key) {

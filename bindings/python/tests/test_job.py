@@ -39,6 +39,15 @@ def test_a_wrong_file_is_refused(tmp_path):
         mr.Job(path).run()
 
 
+def test_scenarios_of_the_package_need_no_file(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result = mr.Job("waves/weld.toml", feed_mm_per_min=300).run()
+    assert result.exact and result.summary["settings"]["feed_mm_per_min"] == 300
+    with pytest.raises(ValueError, match="feed_mm_per_mn: unknown key"):
+        mr.Job("waves/weld.toml", feed_mm_per_mn=300).run()
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_missing_file_is_told(tmp_path):
     with pytest.raises(FileNotFoundError, match="nothing.toml"):
         mr.Job(tmp_path / "nothing.toml").run()

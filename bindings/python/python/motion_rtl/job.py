@@ -65,7 +65,8 @@ class Job:
 
     ``Job("waves/weld.toml", feed_mm_per_min=300)`` overrides a key of the scenario; keys with dots
     stand in a dict, as in ``Job("job.toml", {"program.g54_mm": [1, 2, 0]})``. ``motion-rtl keys
-    CIRCUIT`` prints all keys with their units.
+    CIRCUIT`` prints all keys with their units. The scenarios that ``motion-rtl list`` shows are in
+    the package: their files need not be there.
 
     The program ``motion-rtl`` of this package runs the job, in a process of its own.
     """
@@ -106,8 +107,6 @@ class Job:
         JobError
             The program failed.
         """
-        if not self.path.exists():
-            raise FileNotFoundError(f"{self.path}: no such file")
         with tempfile.TemporaryDirectory(prefix="motion-rtl-") as directory:
             rows = Path(directory, "series.npy")
             words = ["run", "--json", "--quiet", "--no-vcd"]
@@ -119,9 +118,26 @@ class Job:
                 words += ["--series-every", str(series_every)]
             words += ["--", os.fspath(self.path)]
             done = _run(words)
-            summary = _summary(done)
+            summary = self._summary(done)
             arrays = _columns(rows) if series else {}
         return Result(summary, arrays, done.returncode == 0)
+
+    def _summary(self, done: subprocess.CompletedProcess[str]) -> dict[str, Any]:
+        """Return the summary that the program printed."""
+        try:
+            printed = json.loads(done.stdout)
+        except ValueError:
+            text = done.stderr.strip() or f"motion-rtl ended with code {done.returncode}"
+            raise JobError(text) from None
+        error = printed.get("error")
+        if error is None:
+            return printed
+        files = [fault["file"] for fault in error["faults"] if fault["field"] == "file"]
+        if os.fspath(self.path) in files and not self.path.exists():
+            raise FileNotFoundError(error["message"])
+        if error["kind"] in ("input", "argument", "usage"):
+            raise ValueError(error["message"])
+        raise JobError(error["message"])
 
 
 def _run(words: list[str]) -> subprocess.CompletedProcess[str]:
@@ -131,21 +147,6 @@ def _run(words: list[str]) -> subprocess.CompletedProcess[str]:
     package = os.fspath(Path(__file__).parents[1])
     words = [sys.executable, "-c", _PROGRAM, package, *words]
     return subprocess.run(words, capture_output=True, text=True, check=False)
-
-
-def _summary(done: subprocess.CompletedProcess[str]) -> dict[str, Any]:
-    """Return the summary that the program printed."""
-    try:
-        printed = json.loads(done.stdout)
-    except ValueError:
-        text = done.stderr.strip() or f"motion-rtl ended with code {done.returncode}"
-        raise JobError(text) from None
-    error = printed.get("error")
-    if error is None:
-        return printed
-    if error["kind"] in ("input", "argument", "usage"):
-        raise ValueError(error["message"])
-    raise JobError(error["message"])
 
 
 def _columns(rows: Path) -> dict[str, np.ndarray]:
