@@ -19,6 +19,9 @@ use std::path::{Path, PathBuf};
 /// last [`TICKS`](Self::TICKS) ticks, up to the one that failed, and a GTKWave save file lies
 /// beside it. Time stamps are those of the whole run. A test that passes writes nothing.
 ///
+/// Keep the simulator in a variable until the last assertion. Copies of a simulator keep no ticks.
+/// In a property test use `assert!`: `prop_assert!` drops the simulator before the test fails.
+///
 /// ```
 /// use motion_rtl::circuits::blocks::EnableCounter;
 /// use motion_rtl::trace::LastTicks;

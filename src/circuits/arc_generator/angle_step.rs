@@ -8,13 +8,14 @@
 //!          └────────────┘
 //! ```
 //!
-//! The differences of rounded angles add up to the angle itself, so their rounding does not.
+//! The differences of rounded angles add up to the rounded angle itself, so rounding errors do not
+//! add up.
 
 use crate::prelude::*;
 
 /// Step of the angle.
 ///
-/// The difference is valid in the tick after `step`, with `turn`.
+/// The difference is valid in the tick after `step`; `turn` is high in that tick.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AngleStep {
@@ -25,30 +26,30 @@ pub struct AngleStep {
 signals! { for AngleStep as c;
     /// Input ports.
     pub struct In {
-        /// Advances to the next angle, which is valid from the next tick on.
+        /// Advances to the next angle, which is valid in the next tick.
         pub step: Bit,
         /// Aborts; a step in the same tick is ignored.
         pub halt: Bit,
-        /// θ.
+        /// θ, in units of 2^−H turn.
         pub angle: I(c.width) as Analog,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// θi−1.
+        /// θi−1, in units of 2^−H turn.
         last: I(c.width) = 0,
         /// The difference is valid in this tick.
         pub turn: Bit = 0,
     }
     /// Net.
     pub struct Net {
-        /// Δθi.
+        /// Δθi = θi − θi−1, in units of 2^−H turn.
         pub difference: U(c.width),
     }
 }
 
 impl Circuit for AngleStep {
     const NAME: &'static str = "angle_step";
-    const ABOUT: &'static str = "what an angle has grown by since the sample before";
+    const ABOUT: &'static str = "increase of an angle since the previous sample";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

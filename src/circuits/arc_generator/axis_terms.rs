@@ -1,4 +1,4 @@
-//! Terms of the axis: the components and products of the unit vector k in \[2\], computed
+//! Terms of the axis: components of the unit vector k in \[2\] and their products, computed
 //! beforehand.
 //!
 //! ```text
@@ -10,7 +10,7 @@
 use crate::circuits::blocks::RecordWord;
 use crate::prelude::*;
 
-/// Word of a record that is kx; the others follow.
+/// Number of the record word that is kx; the other terms follow.
 pub const AXIS_WORD: u64 = 19;
 
 /// Terms of the axis.
@@ -52,7 +52,7 @@ signals! { for AxisTerms as c;
     }
     /// Nets.
     pub struct Net {
-        /// The data as a coefficient.
+        /// Data word as a coefficient.
         given: I(c.coefficient),
     }
 }

@@ -1,4 +1,4 @@
-//! Blends and lines as in the text: \[5\] and \[10\] evaluated at h by products, for every sample.
+//! Blends and lines as in the text: evaluates \[5\] and \[10\] at h by products, for every sample.
 //!
 //! ```text
 //!                     ┌─────────────────────────────────────┐
@@ -8,8 +8,8 @@
 //!                     └─────────────────────────────────────┘
 //! ```
 //!
-//! h = n/M is a sum of whole and part, exact as a [`DifferenceColumn`] has it, and rounded where it
-//! is taken; so it is 1 at the end, and the point A⁺.
+//! h = n/M is kept as whole and part, as in a [`DifferenceColumn`], so it is exact. It is rounded
+//! only where it is used. So h is 1 at the end, and the point is A⁺.
 
 use super::rotation_row::ROWS;
 use super::{BlendRow, BlendWeight, Widths, blend_row, blend_weight};
@@ -18,7 +18,8 @@ use crate::circuits::blocks::{
 };
 use crate::prelude::*;
 
-/// Word of a record that is h where a segment begins; 1/M follows, as whole and part.
+/// Number of the record word that holds h at the start of a segment; 1/M follows, as whole and
+/// part.
 pub const SHARE_WORD: u64 = 10;
 
 /// Points of blends and lines by products.
@@ -72,9 +73,9 @@ signals! { for BlendPoint as c;
     pub struct In {
         /// Word of a record.
         pub record: RecordWord(&c.widths.data) as Flat,
-        /// M: the samples of the segment.
+        /// M: number of samples of the segment.
         pub modulus: U(c.widths.fraction),
-        /// Advances to the next point; until `done`, `step` and `record` must be low.
+        /// Advances to the next point. Until `done`, `step` and `record` must be low.
         pub step: Bit,
         /// Aborts the point that is being computed.
         pub halt: Bit,
@@ -83,31 +84,31 @@ signals! { for BlendPoint as c;
     pub struct Parts {
         /// h, in units of 2^−B.
         pub share: Part<DifferenceColumn>(c.share()),
-        /// 1/M.
+        /// 1/M, in units of 2^−B.
         pub share_step: Part<DifferenceColumn>(c.share_step()),
-        /// Bit index of a product.
+        /// Counter of the bits of a product.
         pub control: Part<CoefficientControl>(c.control()),
         /// (2 − h)h³.
         pub weight: Part<BlendWeight>(BlendWeight { coefficient: c.widths.coefficient }),
-        /// X, Y and Z.
+        /// Coordinates X, Y and Z.
         pub rows: [Part<BlendRow>(c.row(k as u64)); k in 3] as Elements(ROWS),
     }
     /// Output ports.
     pub struct Net {
         /// X of the vector from A⁻ to the point.
         pub x: I(c.widths.point) as Analog,
-        /// Y of it.
+        /// Y of the vector from A⁻ to the point.
         pub y: I(c.widths.point) as Analog,
-        /// Z of it.
+        /// Z of the vector from A⁻ to the point.
         pub z: I(c.widths.point) as Analog,
-        /// High in the tick with new values.
+        /// High for one tick, when a new point is valid.
         pub done: Bit,
     }
 }
 
 impl Circuit for BlendPoint {
     const NAME: &'static str = "blend_point";
-    const ABOUT: &'static str = "the next point of a blend or line, by products at h";
+    const ABOUT: &'static str = "next point of a blend or line, by products at h";
     records!(In, Nothing, Net, Parts);
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {

@@ -1,5 +1,5 @@
-//! Row of a blend by products: one coordinate of 2(A − A⁻)h + S(2 − h)h³, both products at once,
-//! one bit of h and of the weight per tick.
+//! Row of a blend by products: computes one coordinate of 2(A − A⁻)h + S(2 − h)h³, both products at
+//! once, one bit of h and of the weight per tick.
 //!
 //! ```text
 //!                             ┌───────────┐
@@ -9,8 +9,8 @@
 //!                             └───────────┘
 //! ```
 //!
-//! The sum is halved after each fraction bit, as in a [`RotationRow`](super::RotationRow); the
-//! last bit shifted out rounds the result, so nothing is lost before.
+//! The sum is halved after each fraction bit, as in a [`RotationRow`](super::RotationRow). The last
+//! bit shifted out rounds the result; nothing is lost before that.
 
 use super::Widths;
 use super::rotation_row::halved;
@@ -23,7 +23,7 @@ use crate::prelude::*;
 pub struct BlendRow {
     /// Widths of points and records.
     pub widths: Widths,
-    /// 0, 1, 2 for x, y, z: it decides which words of a record the row takes.
+    /// 0, 1, 2 for x, y, z: selects the record words that the row takes.
     pub coordinate: u64,
 }
 
@@ -46,46 +46,46 @@ signals! { for BlendRow as c;
         pub record: RecordWord(&c.widths.data) as Flat,
         /// A pass begins.
         pub copy: Bit,
-        /// The bit is one of the fraction.
+        /// The current bit is a fraction bit.
         pub fraction: Bit,
-        /// The sum is complete: it becomes the point.
+        /// The sum is complete and becomes the point.
         pub commit: Bit,
-        /// The bit of h.
+        /// Current bit of h.
         pub share_bit: Bit,
-        /// The bit of (2 − h)h³.
+        /// Current bit of the weight (2 − h)h³.
         pub weight_bit: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// 2(A − A⁻); on a line its whole length.
+        /// 2(A − A⁻); for a line, the distance over its whole length.
         slope: I(c.term()) = 0,
-        /// S = A⁻ − 2A + A⁺, on a line 0.
+        /// S = A⁻ − 2A + A⁺; 0 for a line.
         bend: I(c.term()) = 0,
-        /// This row's coordinate of the vector from A⁻ to the point.
+        /// Coordinate of the vector from A⁻ to the point.
         pub offset: I(c.widths.point) as Analog = 0,
         /// Partial sum of the products, in units of the next bit's weight.
         sum: I(c.sum()) = 0,
-        /// The bit below the sum: a half.
+        /// Bit below the sum: one half.
         half: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// The slope where h has the bit, else 0.
+        /// `slope` if the bit of h is 1, otherwise 0.
         term_slope: I(c.sum()),
-        /// The bend where the weight has the bit, else 0.
+        /// `bend` if the bit of the weight is 1, otherwise 0.
         term_bend: I(c.sum()),
-        /// The sum with both.
+        /// Sum plus both terms.
         total: I(c.sum()),
         /// Sum plus the rounding term.
         raised: I(c.sum()),
-        /// The coordinate, to the nearest, a half upwards.
+        /// Coordinate, rounded to the nearest, halves up.
         rounded: I(c.widths.point),
     }
 }
 
 impl Circuit for BlendRow {
     const NAME: &'static str = "blend_row";
-    const ABOUT: &'static str = "one coordinate of a blend by two products, a bit a tick";
+    const ABOUT: &'static str = "one coordinate of a blend by two products, one bit per tick";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

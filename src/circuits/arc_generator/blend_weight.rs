@@ -1,5 +1,5 @@
-//! Weight of a blend's bend: (2 − h)h³ of \[5\] and \[10\], by two products a bit a tick, and both
-//! factors of the point as bits.
+//! Weight of a blend's bend: computes (2 − h)h³ of \[5\] and \[10\] by two products, one bit per
+//! tick, and outputs both factors of the point bit by bit.
 //!
 //! ```text
 //!                            ┌──────────────┐
@@ -10,8 +10,8 @@
 //! ```
 //!
 //! (2 − h)h³ = u(2h − u) with u = h². The first pass of the control computes u, the second the
-//! weight; in the third the bits of h and of the weight go to the rows. Both products are rounded
-//! to nearest.
+//! weight. In the third, the bits of h and of the weight go to the rows. Both products are rounded
+//! to the nearest.
 
 use crate::prelude::*;
 
@@ -34,33 +34,33 @@ pub struct BlendWeight {
 signals! { for BlendWeight as c;
     /// Input ports.
     pub struct In {
-        /// Advances to the next point, whose share h is valid from the next tick on; not before
-        /// `done`.
+        /// Advances to the next point, whose h is valid from the next tick on. Allowed from `done`
+        /// on.
         pub step: Bit,
         /// Aborts the point that is being computed; a step in the same tick is ignored.
         pub halt: Bit,
         /// A pass begins: its factors are copied.
         pub copy: Bit,
-        /// The bit is one of the fraction.
+        /// The current bit is a fraction bit.
         pub fraction: Bit,
         /// The sums of the pass are complete.
         pub commit: Bit,
-        /// h: 0 to 1, from the copy of the first pass to that of the third.
+        /// h: 0 to 1; valid from the copy of the first pass to that of the third.
         pub share: I(c.coefficient),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// A pass begins with this tick.
+        /// A pass begins in this tick.
         pub begins: Bit = 0,
         /// Number of the pass.
         pass: U(2) as States(PASSES) = 0,
-        /// Multiplicand: h, then u; in the third pass the remaining bits of h.
+        /// Multiplicand: h, then u. In the third pass: remaining bits of h.
         factor: U(c.coefficient) as Hex = 0,
-        /// Remaining bits of the multiplier, h, then 2h − u, and of the weight.
+        /// Remaining bits of the multiplier: h, then 2h − u. In the third pass: of the weight.
         bits: U(c.coefficient) as Hex = 0,
         /// Partial product, in units of the next bit's weight.
         sum: U(c.coefficient) = 0,
-        /// The bit below the sum: a half.
+        /// Bit below the sum: one half.
         half: Bit = 0,
         /// The new point is valid in this tick.
         pub done: Bit = 0,
@@ -69,17 +69,17 @@ signals! { for BlendWeight as c;
     pub struct Net {
         /// The pass is the third.
         points: Bit,
-        /// The factor where the other has the bit, else 0.
+        /// `factor` if the bit of the multiplier is 1, otherwise 0; 0 in the third pass.
         addend: U(c.coefficient),
-        /// The sum with it.
+        /// Sum plus `addend`.
         total: U(c.coefficient),
-        /// The product, to the nearest.
+        /// Product, rounded to the nearest.
         product: U(c.coefficient) as Hex,
-        /// The bit of h, in the third pass.
+        /// Current bit of h, in the third pass.
         pub share_bit: Bit,
-        /// The bit of the weight, in the third pass.
+        /// Current bit of the weight, in the third pass.
         pub weight_bit: Bit,
-        /// The rows are complete: they become the point.
+        /// The sums of the rows are complete and become the point.
         pub point_commit: Bit,
     }
 }

@@ -1,5 +1,5 @@
-//! The conventional method of the prior art (Figs 5 and 6), for comparison: the angle accelerates,
-//! so every sample has a sine, a cosine and a matrix of its own.
+//! Conventional method of the prior art (Figs 5 and 6), for comparison: the angle accelerates, so
+//! every sample needs its own sine, cosine and matrix.
 //!
 //! ```text
 //!                          ┌───────────────┐
@@ -10,8 +10,8 @@
 //!                          └───────────────┘
 //! ```
 //!
-//! Ports as those of the arc generator. Δθi = θi − θi−1, sine and cosine by CORDIC, \[2\] from them,
-//! GPi = R·GPi−1 and \[4\], one after the other.
+//! The ports are those of the arc generator. One after the other, each sample computes Δθi = θi −
+//! θi−1, sine and cosine by CORDIC, the matrix \[2\] from them, GPi = R·GPi−1, and \[4\].
 
 use super::generator::{COMMANDS, ports_out};
 pub use super::generator::{In, Net};
@@ -39,13 +39,13 @@ const ELEMENTS: &[&str] = &[
     "matrix_zz",
 ];
 
-/// Conventional generator of arcs, with widths as those of the arc generator.
+/// Conventional generator of arcs, with the widths of the arc generator.
 ///
-/// An angle has as many bits as a coefficient, and is in units of that part of a turn.
+/// An angle is as wide as a coefficient, and in units of 2^−C turn.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Conventional {
-    /// Its widths, by name.
+    /// Word widths, by name.
     pub widths: Widths,
     /// Width of a record number, in bits: the buffer holds 2^`records` records.
     pub records: usize,
@@ -149,31 +149,31 @@ impl Default for Conventional {
 signals! { for Conventional as c;
     /// The blocks.
     pub struct Parts {
-        /// Sampling time.
+        /// Counter of the sampling time.
         pub sample_counter: Part<EnableCounter>(EnableCounter { width: c.widths.period }),
-        /// Coefficients of the next segments.
+        /// Records of the next segments.
         pub memory: Part<RecordMemory>(c.memory()),
-        /// Segment after segment.
+        /// Sequencer of the segments.
         pub sequencer: Part<RecordSequencer>(c.widths.sequencer()),
         /// θ: ramp, constant speed, ramp.
         pub engine: Part<DifferenceEngine>(c.engine()),
         /// Δθ.
         pub angle_step: Part<AngleStep>(AngleStep { width: c.widths.coefficient }),
-        /// Its sine and cosine.
+        /// Sine and cosine of Δθ.
         pub cordic: Part<Cordic>(c.cordic()),
         /// Sine, cosine and versine as coefficients.
         pub words: Part<SineWords>(c.words()),
-        /// Bit index of the matrix in them.
+        /// Bit counter for the products of the matrix.
         pub matrix_control: Part<CoefficientControl>(c.control()),
-        /// The axis.
+        /// Terms of the axis.
         pub axis: Part<AxisTerms>(c.axis()),
-        /// The matrix \[2\].
+        /// Elements of the matrix \[2\].
         pub elements: [Part<MatrixElement>(c.element(k)); k in 9] as Elements(ELEMENTS),
-        /// Bit index of the rotation in the matrix.
+        /// Bit counter for the products of the rotation.
         pub rotation_control: Part<CoefficientControl>(c.control()),
-        /// X, Y and Z.
+        /// Coordinates X, Y and Z.
         pub rows: [Part<VectorRow>(c.row(k as u64)); k in 3] as Elements(ROWS),
-        /// Their commands.
+        /// Position commands of X, Y and Z.
         pub commands: [Part<PositionCommand>(c.widths.command(k as u64)); k in 3]
             as Elements(COMMANDS),
     }
@@ -182,7 +182,7 @@ signals! { for Conventional as c;
 impl Circuit for Conventional {
     const NAME: &'static str = "conventional_generator";
     const ABOUT: &'static str =
-        "the method before: an angle in, a sine, a cosine and a matrix in every sample";
+        "conventional method: an angle, a sine, a cosine and a matrix per sample";
     records!(In, Nothing, Net, Parts);
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {

@@ -26,13 +26,12 @@ const ENGINES: &[&str] = &["engine_x", "engine_y", "engine_z"];
 pub(super) const COMMANDS: &[&str] = &["command_x", "command_y", "command_z"];
 
 /// Arc generator.
-///
-/// The first point of a path is the command one tick after the first sampling time for which it is
-/// ready, [`first`](ArcGenerator::first) ticks after `start`.
+/// The first point of a path becomes the command one tick after the first sampling time at which it
+/// is ready, at least [`first`](ArcGenerator::first) ticks after `start`.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ArcGenerator {
-    /// Its widths, by name.
+    /// Word widths, by name.
     pub widths: Widths,
     /// Width of a record number, in bits: the buffer holds 2^`records` records.
     pub records: usize,
@@ -112,9 +111,9 @@ impl Default for ArcGenerator {
 signals! { for Widths as c;
     /// Segments, as they are written, and the start of their path.
     pub struct Segments {
-        /// Records of segments.
+        /// Port through which records of segments are written.
         pub record: RecordWrite(&c.data) as Flat,
-        /// Starts a path, unless one is running or no segment is waiting.
+        /// Starts a path; ignored while a path runs, or if no segment waits.
         pub start: Bit,
     }
 }
@@ -122,32 +121,33 @@ signals! { for Widths as c;
 signals! { for (ArcGenerator, Conventional) as c;
     /// Input ports.
     pub struct In {
-        /// The path.
+        /// Segments of the path.
         pub segments: Segments(&c.widths) as Flat,
-        /// Ends it where it is: the commands stay, the segments that wait are forgotten.
+        /// Ends the path. The commands keep their values; waiting segments are discarded.
         pub halt: Bit,
-        /// Ts: ticks from one point to the next.
+        /// Ts: sampling time in ticks; 0 counts as 1.
         pub sample_period: U(c.widths.period),
     }
     /// Output ports.
     pub struct Net {
-        /// Position command of x in counts.
+        /// Position command of X, in counts.
         pub x: I(c.widths.position) as Analog,
-        /// Position command of y.
+        /// Position command of Y, in counts.
         pub y: I(c.widths.position) as Analog,
-        /// Position command of z.
+        /// Position command of Z, in counts.
         pub z: I(c.widths.position) as Analog,
         /// New commands are valid in this tick.
         pub sampled: Bit,
-        /// There is a free record.
+        /// A record is free to be written.
         pub ready: Bit,
         /// A path is running.
         pub busy: Bit,
-        /// The segment that makes the points.
+        /// Kind of the current segment.
         pub kind: U(2) as States(record_memory::KINDS),
-        /// A sampling time began before its point was ready; until the next path begins.
+        /// A sampling time has begun before the point was ready; cleared when the next path begins.
         pub late: Bit,
-        /// The path ended in motion, since no segment waited; until the next path begins.
+        /// The path has ended in motion because no segment was waiting; cleared when the next path
+        /// begins.
         pub starved: Bit,
     }
 }
@@ -155,20 +155,20 @@ signals! { for (ArcGenerator, Conventional) as c;
 signals! { for ArcGenerator as c;
     /// The blocks.
     pub struct Parts {
-        /// Sampling time.
+        /// Counter of the sampling time.
         pub sample_counter: Part<EnableCounter>(EnableCounter { width: c.widths.period }),
-        /// Coefficients of the next segments.
+        /// Records of the next segments.
         pub memory: Part<RecordMemory>(c.memory()),
-        /// Segment after segment.
+        /// Sequencer of the segments.
         pub sequencer: Part<RecordSequencer>(c.sequencer()),
-        /// Blends and lines, one for each coordinate.
+        /// Difference engine of a coordinate, for blends and lines.
         pub engines: [Part<DifferenceEngine>(c.widths.engine(k as u64)); k in c.engines()]
             as Elements(ENGINES),
-        /// Blends and lines by products, in their place.
+        /// Blends and lines by products, in place of the difference engines.
         pub blend_point: Part<BlendPoint>(c.blend_point()) if (c.engines() == 0),
-        /// Arcs.
+        /// Rotation for arcs.
         pub rotation: Part<Rotation>(c.rotation()),
-        /// Commands of x, y and z.
+        /// Position commands of X, Y and Z.
         pub commands: [Part<PositionCommand>(c.widths.command(k as u64)); k in 3]
             as Elements(COMMANDS),
     }

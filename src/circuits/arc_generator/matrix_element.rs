@@ -1,5 +1,5 @@
-//! Element of the matrix \[2\]: a product of the axis times vers Δθ and a component times sin Δθ,
-//! or on the diagonal one times cos Δθ, both at once, one bit per tick.
+//! Element of the matrix \[2\]: a product of the axis times vers Δθ, plus or minus a component
+//! times sin Δθ (on the diagonal: 1 times cos Δθ). Both products at once, one bit per tick.
 //!
 //! ```text
 //!                          ┌────────────────┐
@@ -9,8 +9,8 @@
 //!                          └────────────────┘
 //! ```
 //!
-//! The sum is halved after each fraction bit, as in a [`RotationRow`](super::RotationRow); the
-//! last bit shifted out rounds the result.
+//! The sum is halved after each fraction bit, as in a [`RotationRow`](super::RotationRow). The last
+//! bit shifted out rounds the result.
 
 use super::rotation_row::halved;
 use crate::prelude::*;
@@ -48,48 +48,48 @@ impl MatrixElement {
 signals! { for MatrixElement as c;
     /// Input ports.
     pub struct In {
-        /// A matrix begins.
+        /// The computation of a matrix begins.
         pub copy: Bit,
-        /// The bit is one of the fraction.
+        /// The current bit is a fraction bit.
         pub fraction: Bit,
-        /// The bit is the sign, of weight −2.
+        /// The current bit is the sign bit, of weight −2.
         pub top: Bit,
-        /// The bit of vers Δθ.
+        /// Current bit of vers Δθ.
         pub versine_bit: Bit,
-        /// The bit of sin Δθ, on the diagonal of cos Δθ.
+        /// Current bit of sin Δθ; on the diagonal, of cos Δθ.
         pub turn_bit: Bit,
-        /// Multiplicand of vers Δθ: a product of the axis.
+        /// Multiplicand of vers Δθ: a product of components of the axis.
         pub product: I(c.coefficient),
-        /// Multiplicand of `turn_bit`: a component of the axis, on the diagonal 1.
+        /// Multiplicand of `turn_bit`: a component of the axis; on the diagonal, 1.
         pub turn: I(c.coefficient),
     }
     /// Flip-flops.
     pub struct Reg {
         /// Partial sum of the products, in units of the next bit's weight.
         sum: I(c.sum()) = 0,
-        /// The bit below the sum: a half.
+        /// Bit below the sum: one half.
         half: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// The product where vers Δθ has the bit, else 0.
+        /// `product` if `versine_bit` is high, otherwise 0.
         term_product: I(c.sum()),
-        /// `turn` where `turn_bit` is high, else 0.
+        /// `turn` if `turn_bit` is high, otherwise 0.
         term_turn: I(c.sum()),
-        /// Both terms.
+        /// Sum or difference of the two terms.
         addend: I(c.sum()),
-        /// The sum with them.
+        /// Sum plus `addend` at the weight of the current bit.
         total: I(c.sum()),
         /// Sum plus the rounding term.
         raised: I(c.sum()),
-        /// The element, to the nearest.
+        /// Element, rounded to the nearest.
         pub entry: U(c.coefficient) as Hex,
     }
 }
 
 impl Circuit for MatrixElement {
     const NAME: &'static str = "matrix_element";
-    const ABOUT: &'static str = "one element of the matrix of a rotation, a bit a tick";
+    const ABOUT: &'static str = "one element of a rotation matrix, one bit per tick";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

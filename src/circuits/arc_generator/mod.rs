@@ -6,10 +6,11 @@
 //! ```
 //!
 //! A path of lines and arcs in space becomes *segments*, each of a whole number of sampling periods
-//! Ts: at its ends and corners *blends*, quartics of the duration 2ta that meet the pieces in
-//! position and velocity; between them lines and *rotations*, in which the vector from the centre is
-//! multiplied by one constant matrix a sample. What is known beforehand is computed once, in `f64`
-//! and exact integers; per sample the circuit adds, and on an arc multiplies by constants.
+//! Ts. At ends and corners there are *blends*: quartics of the duration 2ta, which continue
+//! position and velocity of their neighbours. Between the blends there are lines and *rotations*;
+//! in a rotation, one constant matrix multiplies the vector from the centre in every sample. All
+//! constants are computed once, in `f64` and exact integers. Per sample the circuit only adds; on
+//! an arc it also multiplies by constants.
 //!
 //! Its program on the control computer is in [`jobs`](crate::jobs::arc_generator).
 //! `rtl_notes/arc_generator/README.md` is the note of this circuit.
@@ -87,7 +88,7 @@ impl Blend {
         }
     }
 
-    /// The widths of the generator that makes them so: by products a modulus is M itself.
+    /// Widths of a generator with this method: with products, a modulus is M itself.
     #[must_use]
     pub const fn widths(self, widths: Widths) -> Widths {
         match self {

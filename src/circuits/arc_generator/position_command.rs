@@ -1,4 +1,4 @@
-//! Position command of one coordinate: the point in whole counts, at the sampling time.
+//! Position command of one coordinate: the point in whole counts, updated at the sampling time.
 //!
 //! ```text
 //!                       ┌──────────────────┐
@@ -9,7 +9,7 @@
 //!                       └──────────────────┘
 //! ```
 //!
-//! Equation \[4\] of the text, OPi = OG + GPi. On a blend or a line the origin is 0 and the
+//! Equation \[4\] of the text, OPi = OG + GPi. On a blend or a line the origin is 0, and the
 //! difference engine gives the point itself.
 
 use super::Widths;
@@ -22,7 +22,7 @@ use crate::prelude::*;
 pub struct PositionCommand {
     /// Widths of commands, points and records.
     pub widths: Widths,
-    /// 0, 1, 2 for x, y, z: it decides which word of a record is the origin.
+    /// 0, 1, 2 for x, y, z: selects the record word that is the origin.
     pub coordinate: u64,
 }
 
@@ -37,36 +37,36 @@ signals! { for PositionCommand as c;
     pub struct In {
         /// Word of a record.
         pub record: RecordWord(&c.widths.data) as Flat,
-        /// The point is on an arc.
+        /// The current segment is an arc.
         pub rotating: Bit,
-        /// The coordinate as the difference engine has it.
+        /// Coordinate from the difference engine, with guard bits.
         pub polynomial: I(c.widths.point),
-        /// The coordinate of the vector from the centre, as the rotation has it.
+        /// Coordinate of the vector from the centre, from the rotation, with guard bits.
         pub offset: I(c.widths.point),
         /// The point becomes the command.
         pub present: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// G: the centre on an arc, 0 elsewhere.
+        /// G: coordinate of the centre on an arc; 0 on blends and lines.
         origin: I(c.widths.point) = 0,
-        /// The coordinate in counts.
+        /// Position command, in counts.
         pub command: I(c.widths.position) as Analog = 0,
     }
     /// Nets.
     pub struct Net {
-        /// The coordinate with its guard bits.
+        /// Coordinate with guard bits.
         point: I(c.widths.point) as Analog,
         /// Coordinate with its guard bits plus half a count.
         raised: I(c.widths.point),
-        /// The coordinate to the nearest count, a half upwards.
+        /// Coordinate, rounded to the nearest count, halves up.
         nearest: I(c.widths.position),
     }
 }
 
 impl Circuit for PositionCommand {
     const NAME: &'static str = "position_command";
-    const ABOUT: &'static str = "centre and vector added, rounded to counts, at the sampling time";
+    const ABOUT: &'static str = "centre plus vector, rounded to counts, at the sampling time";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

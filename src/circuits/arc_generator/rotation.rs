@@ -1,4 +1,5 @@
-//! Rotation stage: GPi = R·GPi−1, step 2 of the text's section (ロ), with a matrix that is computed once.
+//! Rotation stage: computes GPi = R·GPi−1, step 2 of the text's section (ロ), with a matrix that is
+//! computed once.
 //!
 //! ```text
 //!                     ┌───────────────────────┐
@@ -8,7 +9,7 @@
 //!                     └───────────────────────┘
 //! ```
 //!
-//! Nine products and six additions for each point, as a bit-serial multiply-accumulate in each
+//! Each point takes nine products and six additions, as a bit-serial multiply-accumulate in each
 //! row. All three coordinates change at once.
 
 use super::rotation_row::{self, ROWS};
@@ -54,34 +55,34 @@ signals! { for Rotation as c;
     pub struct In {
         /// Word of a record.
         pub record: RecordWord(&c.widths.data) as Flat,
-        /// Advances to the next point; no record word may come before `done`.
+        /// Advances to the next point. No record word may come before `done`.
         pub step: Bit,
-        /// Aborts the step that is running.
+        /// Aborts a running step.
         pub halt: Bit,
     }
     /// The blocks.
     pub struct Parts {
-        /// Bit index of the coefficients.
+        /// Bit counter of the coefficients.
         pub control: Part<CoefficientControl>(c.control()),
-        /// X, Y and Z.
+        /// Coordinates X, Y and Z.
         pub rows: [Part<RotationRow>(c.row(k as u64)); k in 3] as Elements(ROWS),
     }
     /// Output ports.
     pub struct Net {
         /// X of the vector from the centre to the point.
         pub x: I(c.widths.point) as Analog,
-        /// Y of it.
+        /// Y of the vector from the centre to the point.
         pub y: I(c.widths.point) as Analog,
-        /// Z of it.
+        /// Z of the vector from the centre to the point.
         pub z: I(c.widths.point) as Analog,
-        /// High in the tick with new values.
+        /// High for one tick, when a new point is valid.
         pub done: Bit,
     }
 }
 
 impl Circuit for Rotation {
     const NAME: &'static str = "rotation";
-    const ABOUT: &'static str = "the next point of an arc: a constant matrix times a vector";
+    const ABOUT: &'static str = "next point of an arc: a constant matrix times a vector";
     records!(In, Nothing, Net, Parts);
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {

@@ -1,5 +1,5 @@
-//! Row of the rotation stage: one coordinate of R·GP, three products at once, one bit of the
-//! coefficients per tick.
+//! Row of the rotation stage: computes one coordinate of R·GP, three products at once, one bit of
+//! the coefficients per tick.
 //!
 //! ```text
 //!                         ┌──────────────┐
@@ -10,9 +10,9 @@
 //!                         └──────────────┘
 //! ```
 //!
-//! Each tick adds to `sum` those of x, y, z whose coefficient has the bit, then halves it; the
-//! last bit shifted out is the half that rounds the result. Nothing is lost before the rounding,
-//! and no word is wider than the sum.
+//! Each tick adds to `sum` those of x, y, z whose coefficient has the current bit set, then halves
+//! the sum. The last bit shifted out is the half that rounds the result. Nothing is lost before the
+//! rounding, and no word is wider than the sum.
 
 use super::{Rounding, VectorRow, Widths};
 use crate::circuits::blocks::RecordWord;
@@ -27,7 +27,7 @@ pub(super) const ROWS: &[&str] = &["row_x", "row_y", "row_z"];
 pub struct RotationRow {
     /// Widths of points, coefficients and records.
     pub widths: Widths,
-    /// 0, 1, 2 for x, y, z: it decides which words of a record the row takes.
+    /// 0, 1, 2 for x, y, z: selects the record words that the row takes.
     pub coordinate: u64,
     /// Rounding of its result.
     pub rounding: Rounding,
@@ -52,11 +52,11 @@ signals! { for RotationRow as c;
         pub record: RecordWord(&c.widths.data) as Flat,
         /// A step begins: the coefficients are copied.
         pub copy: Bit,
-        /// The bit is one of the fraction.
+        /// The current bit is a fraction bit.
         pub fraction: Bit,
-        /// The bit is the sign, of weight −2.
+        /// The current bit is the sign bit, of weight −2.
         pub top: Bit,
-        /// The sum is complete.
+        /// The sum is complete and becomes the coordinate.
         pub commit: Bit,
         /// X of the vector.
         pub x: I(c.widths.point),
@@ -67,7 +67,7 @@ signals! { for RotationRow as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// This row's coordinate of the vector from the centre to the point.
+        /// Coordinate of the vector from the centre to the point.
         pub offset: I(c.widths.point) as Analog = 0,
         /// Coefficient of x.
         by_x: U(c.widths.coefficient) as Hex = 0,
@@ -75,7 +75,7 @@ signals! { for RotationRow as c;
         by_y: U(c.widths.coefficient) as Hex = 0,
         /// Coefficient of z.
         by_z: U(c.widths.coefficient) as Hex = 0,
-        /// The products.
+        /// Products in progress.
         products: Products(c) as Flat,
     }
 }
@@ -92,24 +92,24 @@ signals! { for (RotationRow, VectorRow) as c;
         bits_z: U(c.widths.coefficient) as Hex = 0,
         /// Partial sum of the products, in units of the next bit's weight.
         sum: I(c.sum()) = 0,
-        /// The bit below the sum: a half.
+        /// Bit below the sum: one half.
         half: Bit = 0,
     }
     /// Nets, also those of a [row of a matrix that changes](super::vector_row).
     pub struct Net {
-        /// X where its coefficient has the bit, else 0.
+        /// X if the bit of its coefficient is 1, otherwise 0.
         term_x: I(c.sum()),
-        /// Y where its coefficient has the bit, else 0.
+        /// Y if the bit of its coefficient is 1, otherwise 0.
         term_y: I(c.sum()),
-        /// Z where its coefficient has the bit, else 0.
+        /// Z if the bit of its coefficient is 1, otherwise 0.
         term_z: I(c.sum()),
-        /// The three terms added.
+        /// Sum of the three terms.
         addend: I(c.sum()),
-        /// The sum with it.
+        /// Sum plus `addend` at the weight of the current bit.
         total: I(c.sum()),
         /// Sum plus the rounding term.
         raised: I(c.sum()),
-        /// The coordinate of the new point.
+        /// Coordinate of the new point.
         pub(super) rounded: I(c.widths.point),
     }
 }
@@ -167,7 +167,7 @@ pub(super) fn halved(total: I, half: Bit, copy: Bit, fraction: Bit) -> (I, Bit) 
 
 impl Circuit for RotationRow {
     const NAME: &'static str = "rotation_row";
-    const ABOUT: &'static str = "one coordinate of a matrix times a vector, a bit a tick";
+    const ABOUT: &'static str = "one coordinate of a matrix times a vector, one bit per tick";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

@@ -1,5 +1,5 @@
-//! Words of sine and cosine: the output of CORDIC, rounded to coefficients, and vers = 1 − cos;
-//! all three are output serially, one bit per tick.
+//! Words of sine and cosine: rounds the output of the CORDIC to coefficients, computes vers = 1 −
+//! cos, and outputs all three serially, one bit per tick.
 //!
 //! ```text
 //!           ┌────────────┐
@@ -11,12 +11,12 @@
 
 use crate::prelude::*;
 
-/// Bits that CORDIC has below a coefficient's last.
+/// Bits of the CORDIC's output below the last bit of a coefficient.
 pub const FINE: usize = 6;
 
 /// Words of sine and cosine.
 ///
-/// The lowest bits are valid in the tick after `copy`, the next a tick later.
+/// The lowest bits are valid in the tick after `copy`, the next bits one tick later.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SineWords {
@@ -34,46 +34,46 @@ impl SineWords {
 signals! { for SineWords as c;
     /// Input ports.
     pub struct In {
-        /// The words are taken.
+        /// Loads the words.
         pub copy: Bit,
-        /// cos Δθ.
+        /// cos Δθ, from the CORDIC.
         pub along: I(c.radius()),
-        /// sin Δθ.
+        /// sin Δθ, from the CORDIC.
         pub across: I(c.radius()),
     }
     /// Flip-flops.
     pub struct Reg {
         /// Remaining bits of the sine.
         sine: U(c.coefficient) as Hex = 0,
-        /// Bits of the cosine.
+        /// Remaining bits of the cosine.
         cosine: U(c.coefficient) as Hex = 0,
-        /// Bits of vers Δθ.
+        /// Remaining bits of vers Δθ.
         versine: U(c.coefficient) as Hex = 0,
     }
     /// Nets.
     pub struct Net {
-        /// sin Δθ and half a coefficient, without the bits below one.
+        /// sin Δθ plus half a unit of a coefficient, rounded down to coefficient units.
         whole_sine: I(c.radius()),
-        /// cos Δθ and half a coefficient, without the bits below one.
+        /// cos Δθ plus half a unit of a coefficient, rounded down to coefficient units.
         whole_cosine: I(c.radius()),
-        /// sin Δθ to the nearest coefficient.
+        /// sin Δθ, rounded to the nearest coefficient.
         nearest_sine: I(c.coefficient),
-        /// cos Δθ to the nearest.
+        /// cos Δθ, rounded to the nearest coefficient.
         nearest_cosine: I(c.coefficient),
         /// vers Δθ = 1 − cos Δθ.
         rest: I(c.coefficient),
-        /// The current bit of the sine.
+        /// Current bit of the sine.
         pub sine_bit: Bit,
-        /// The current bit of the cosine.
+        /// Current bit of the cosine.
         pub cosine_bit: Bit,
-        /// The current bit of the versine.
+        /// Current bit of the versine.
         pub versine_bit: Bit,
     }
 }
 
 impl Circuit for SineWords {
     const NAME: &'static str = "sine_words";
-    const ABOUT: &'static str = "sine, cosine and versine as coefficients, a bit a tick";
+    const ABOUT: &'static str = "sine, cosine and versine as coefficients, one bit per tick";
     records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {

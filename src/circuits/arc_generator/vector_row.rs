@@ -1,5 +1,5 @@
-//! Row of a rotation whose matrix changes every sample: a [`RotationRow`](super::RotationRow)
-//! whose coefficients come from the matrix.
+//! Row of a rotation whose matrix changes every sample: a [`RotationRow`](super::RotationRow) with
+//! the coefficients of the matrix as inputs.
 //!
 //! ```text
 //!                         ┌────────────┐
@@ -25,7 +25,7 @@ pub const VECTOR_WORD: u64 = 16;
 pub struct VectorRow {
     /// Widths of points, coefficients and records.
     pub widths: Widths,
-    /// 0, 1, 2 for x, y, z: it decides which word of a record the row takes.
+    /// 0, 1, 2 for x, y, z: selects the record word that the row takes.
     pub coordinate: u64,
     /// Rounding of its result.
     pub rounding: Rounding,
@@ -45,11 +45,11 @@ signals! { for VectorRow as c;
         pub record: RecordWord(&c.widths.data) as Flat,
         /// A step begins: the coefficients are copied.
         pub copy: Bit,
-        /// The bit is one of the fraction.
+        /// The current bit is a fraction bit.
         pub fraction: Bit,
-        /// The bit is the sign, of weight −2.
+        /// The current bit is the sign bit, of weight −2.
         pub top: Bit,
-        /// The sum is complete.
+        /// The sum is complete and becomes the coordinate.
         pub commit: Bit,
         /// Coefficient of x.
         pub by_x: U(c.widths.coefficient) as Hex,
@@ -66,16 +66,17 @@ signals! { for VectorRow as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// This row's coordinate of the vector from the centre to the point.
+        /// Coordinate of the vector from the centre to the point.
         pub offset: I(c.widths.point) as Analog = 0,
-        /// The products.
+        /// Products in progress.
         products: Products(c) as Flat,
     }
 }
 
 impl Circuit for VectorRow {
     const NAME: &'static str = "vector_row";
-    const ABOUT: &'static str = "one coordinate of a changing matrix times a vector, a bit a tick";
+    const ABOUT: &'static str =
+        "one coordinate of a changing matrix times a vector, one bit per tick";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

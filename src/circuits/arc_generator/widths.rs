@@ -24,7 +24,7 @@ pub struct Widths {
 }
 
 impl Widths {
-    /// The circuit's own.
+    /// Widths of the standard build.
     pub const FULL: Widths = Widths {
         position: 24,
         point: 40,
@@ -34,7 +34,7 @@ impl Widths {
         samples: 20,
         period: 24,
     };
-    /// The catalogue's at W: half as many guard bits.
+    /// Widths of the catalogue for W: half as many guard bits.
     #[must_use]
     pub const fn narrow(position: usize) -> Widths {
         Widths {
@@ -82,7 +82,7 @@ impl Widths {
         DifferenceEngine { widths, coordinate }
     }
 
-    /// The command of a coordinate.
+    /// Position command of a coordinate.
     #[must_use]
     pub const fn command(self, coordinate: u64) -> PositionCommand {
         PositionCommand {
@@ -91,13 +91,13 @@ impl Widths {
         }
     }
 
-    /// The most samples of a segment.
+    /// Largest number of samples of a segment.
     #[must_use]
     pub const fn most_samples(&self) -> u64 {
         (1 << self.samples) - 1
     }
 
-    /// The most samples of a blend: even, and its fourth power is a modulus.
+    /// Largest number of samples of a blend: even, with a fourth power that is a possible modulus.
     #[must_use]
     pub fn most_blend_samples(&self) -> u64 {
         let most = 1u128 << (self.fraction - 1);
@@ -122,7 +122,7 @@ impl Widths {
         holds(self.position, counts)
     }
 
-    /// The least W that holds it.
+    /// Least W that holds a coordinate in counts.
     #[must_use]
     pub fn needed(counts: f64) -> usize {
         (2..1024)

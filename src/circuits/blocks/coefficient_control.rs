@@ -7,8 +7,8 @@
 //!         └─────────────────────┘
 //! ```
 //!
-//! A coefficient has two's complement bits of weights 2^−B … 2^−1, 1 and −2. The rows take them
-//! from the lowest up, a bit a tick; after a bit of the fraction they halve their sum.
+//! A coefficient is a two's complement number with bit weights 2^−B … 2^−1, 1 and −2. The rows take
+//! one bit per tick, the lowest first. After each fraction bit they halve their sum.
 
 use crate::prelude::*;
 
@@ -32,7 +32,7 @@ impl CoefficientControl {
 signals! { for CoefficientControl as c;
     /// Input ports.
     pub struct In {
-        /// Advances to the next point; not taken while `busy`.
+        /// Advances to the next point; ignored while `busy`.
         pub step: Bit,
         /// Aborts a running step; a step in the same tick is ignored.
         pub halt: Bit,
@@ -41,22 +41,23 @@ signals! { for CoefficientControl as c;
     pub struct Reg {
         /// A step is running.
         pub busy: Bit = 0,
-        /// Index of the current bit; the fraction comes first.
+        /// Index of the current coefficient bit, lowest first; the width of a coefficient in the
+        /// tick of `commit`.
         bit_index: U(6) = 0,
         /// The new point is valid in this tick.
         pub done: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A step is taken: the rows copy their coefficients.
+        /// A step is accepted: the rows copy their coefficients.
         pub copy: Bit,
-        /// The bit is one of the fraction.
+        /// The current bit is a fraction bit.
         pub fraction: Bit,
-        /// The bit is the sign, of weight −2.
+        /// The current bit is the sign bit, of weight −2.
         pub top: Bit,
-        /// The sums are complete: they become the point.
+        /// The sums are complete and become the point.
         pub commit: Bit,
-        /// A step is running after this tick.
+        /// A step runs in the next tick.
         going: Bit,
     }
 }

@@ -1,4 +1,5 @@
-//! CORDIC: a vector turned by an angle, an iteration a tick; the point of an arc around its centre.
+//! CORDIC: rotates a vector by an angle, one iteration per tick. Gives the point of an arc relative
+//! to its centre.
 //!
 //! ```text
 //!           ┌──────────────────────────┐
@@ -35,44 +36,43 @@ impl Cordic {
 signals! { for Cordic as c;
     /// Input ports. Values given with `start` are taken in that tick and need not be held.
     pub struct In {
-        /// Starts, unless one is running.
+        /// Starts a rotation; ignored while `busy`.
         pub start: Bit,
         /// Aborts; a start in the same tick is ignored.
         pub halt: Bit,
-        /// First coordinate of the vector, with room for its length times
-        /// [`GAIN`](cordic_state::GAIN); for a point of a circle the radius divided by it.
+        /// First coordinate of the vector. The width leaves room for the length of the vector times
+        /// [`GAIN`](cordic_state::GAIN). For a point of a circle: the radius divided by GAIN.
         pub radius: I(c.radius),
-        /// The second, 0 for a point of a circle.
+        /// Second coordinate of the vector; 0 for a point of a circle.
         pub offset: I(c.radius),
-        /// The angle in units of 2^−H turn.
+        /// Angle of the rotation, in units of 2^−H turn.
         pub angle: U(c.angle),
     }
     /// The blocks.
     pub struct Parts {
-        /// Vector and angle.
+        /// Vector and remaining angle.
         pub turning: Part<CordicState>(CordicState { radius: c.radius, angle: c.angle }),
-        /// `along` by 2^−iteration.
+        /// `along` times 2^−iteration, rounded down.
         pub shift_along: Part<Shifter>(Shifter { width: c.radius }),
-        /// `across` by 2^−iteration.
+        /// `across` times 2^−iteration, rounded down.
         pub shift_across: Part<Shifter>(Shifter { width: c.radius }),
     }
     /// Output ports.
     pub struct Net {
-        /// GAIN · (radius · cos angle − offset · sin angle), from `done` on.
+        /// GAIN · (radius · cos angle − offset · sin angle); valid from `done` on.
         pub along: I(c.radius) as Analog,
-        /// GAIN · (radius · sin angle + offset · cos angle), from `done` on.
+        /// GAIN · (radius · sin angle + offset · cos angle); valid from `done` on.
         pub across: I(c.radius) as Analog,
         /// The point is valid in this tick.
         pub done: Bit,
-        /// A start is not taken.
+        /// A rotation is running; a start is ignored.
         pub busy: Bit,
     }
 }
 
 impl Circuit for Cordic {
     const NAME: &'static str = "cordic";
-    const ABOUT: &'static str =
-        "radius and angle to the point around the centre, an iteration a tick";
+    const ABOUT: &'static str = "rotates a vector by an angle, one iteration per tick";
     records!(In, Nothing, Net, Parts);
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {

@@ -1,5 +1,5 @@
-//! CORDIC, its registers and adders: a vector is turned by ± arctan 2^−n for n = 0, 1, 2 … towards an
-//! angle, around two shifters.
+//! Registers and adders of a CORDIC: rotates a vector by ± arctan 2^−n for n = 0, 1, 2 … towards an
+//! angle. Two shifters outside supply the shifted coordinates.
 //!
 //! ```text
 //!                           ┌──────────────┐
@@ -10,10 +10,10 @@
 //!                           └──────────────┘
 //! ```
 //!
-//! The vector (radius, offset) is first turned by whole quarters, so the rest of the angle is
-//! within an eighth of a turn of zero. Each iteration lengthens the vector by a fixed factor,
-//! whatever its sign: by their product, [`GAIN`], in all. To get a vector in its own length,
-//! divide it by the gain beforehand.
+//! The vector (radius, offset) is first rotated by whole quarter turns, so that at most an eighth
+//! of a turn remains in either direction. Each iteration lengthens the vector by a fixed factor,
+//! whatever the direction of its rotation. The product of these factors is [`GAIN`]. To keep the
+//! length of a vector, divide the vector by the gain beforehand.
 
 use crate::prelude::*;
 use std::f64::consts::TAU;
@@ -24,8 +24,8 @@ pub const GAIN: f64 = 1.646_760_258_121_065_6;
 
 /// Registers of a CORDIC.
 ///
-/// There are as many iterations as the angle has bits: the remaining angle is then below one of
-/// its units.
+/// The number of iterations is the width of an angle. The angle that remains is then less than one
+/// unit.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CordicState {
@@ -49,72 +49,74 @@ impl CordicState {
 signals! { for CordicState as c;
     /// Input ports. Values given with `start` are taken in that tick and need not be held.
     pub struct In {
-        /// Starts, unless one is running.
+        /// Starts a rotation; ignored while `busy`.
         pub start: Bit,
         /// Aborts; a start in the same tick is ignored.
         pub halt: Bit,
-        /// First coordinate of the vector, with room for its length times [`GAIN`].
+        /// First coordinate of the vector. The width leaves room for the length of the vector times
+        /// [`GAIN`].
         pub radius: I(c.radius),
-        /// The second, 0 for a point of a circle.
+        /// Second coordinate of the vector; 0 for a point of a circle.
         pub offset: I(c.radius),
-        /// The angle in units of 2^−H turn.
+        /// Angle of the rotation, in units of 2^−H turn.
         pub angle: U(c.angle),
-        /// `along` by 2^−iteration.
+        /// `along` times 2^−iteration, rounded down.
         pub small_along: I(c.radius),
-        /// `across` by 2^−iteration.
+        /// `across` times 2^−iteration, rounded down.
         pub small_across: I(c.radius),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// A turn is running.
+        /// A rotation is running.
         pub busy: Bit = 0,
-        /// The iteration.
+        /// Number of the iteration, from 0 on; 0 between rotations.
         pub iteration: U(6) = 0,
-        /// [`GAIN`] · (radius · cos angle − offset · sin angle), from `done` on.
+        /// [`GAIN`] · (radius · cos angle − offset · sin angle); valid from `done` on.
         pub along: I(c.radius) as Analog = 0,
-        /// [`GAIN`] · (radius · sin angle + offset · cos angle), from `done` on.
+        /// [`GAIN`] · (radius · sin angle + offset · cos angle); valid from `done` on.
         pub across: I(c.radius) as Analog = 0,
-        /// The angle that is left.
+        /// Remaining angle, in units of 2^−H turn.
         left: I(c.angle) as Analog = 0,
         /// The point is valid in this tick.
         pub done: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A start is taken.
+        /// A start is accepted.
         take: Bit,
-        /// The iteration is the last.
+        /// The iteration is the last one.
         last: Bit,
-        /// The turn continues after this tick.
+        /// The rotation continues in the next tick.
         goes_on: Bit,
-        /// The angle is nearer to the next quarter: the eighths are rounded.
+        /// Angle plus an eighth of a turn: its upper two bits are the nearest quarter.
         raised: U(c.angle),
-        /// The nearest quarter is the first or third: the coordinates change places.
+        /// The nearest quarter is 1 or 3: the coordinates are swapped.
         upright: Bit,
-        /// Second or third quarter: `across` changes its sign. `along` does in the first and second.
+        /// The nearest quarter is 2 or 3: the sign of `across` is inverted. That of `along` is
+        /// inverted for 1 and 2.
         half: Bit,
-        /// The nearest quarter.
+        /// Nearest multiple of a quarter turn, in units of 2^−H turn.
         quarter: U(c.angle),
-        /// The coordinate along after the quarters, but for the sign.
+        /// First coordinate after rotation by `quarter`, before its sign is set.
         first: I(c.radius),
-        /// The coordinate across after the quarters, but for the sign.
+        /// Second coordinate after rotation by `quarter`, before its sign is set.
         second: I(c.radius),
-        /// The vector turned by it, along.
+        /// First coordinate after rotation by `quarter`.
         begin_along: I(c.radius),
-        /// Across.
+        /// Second coordinate after rotation by `quarter`.
         begin_across: I(c.radius),
-        /// The angle without its quarters.
+        /// Angle that is left after rotation by `quarter`.
         rest: I(c.angle),
-        /// The remaining angle is below zero: the vector is turned back.
+        /// The remaining angle is negative: this iteration rotates backwards.
         back: Bit,
-        /// arctan 2^−iteration.
+        /// arctan 2^−iteration, in units of 2^−H turn.
         turn: I(c.angle),
     }
 }
 
 impl Circuit for CordicState {
     const NAME: &'static str = "cordic_state";
-    const ABOUT: &'static str = "a vector and what is left of its angle, an iteration a tick";
+    const ABOUT: &'static str = "registers and adders of a CORDIC, one iteration per tick";
     records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {

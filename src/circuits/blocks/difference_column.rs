@@ -1,5 +1,4 @@
-//! A column of the difference engine: a number as whole and part, and the adder that takes the
-//! column below to it.
+//! Column of a difference engine: a number as whole and part, and the adder for the column below.
 //!
 //! ```text
 //!                       ┌───────────────────┐
@@ -9,10 +8,10 @@
 //!                       └───────────────────┘
 //! ```
 //!
-//! The number is `whole + part / modulus` with `0 <= part < modulus`, so a quotient is carried
-//! without an error whatever the modulus, and without a divider: the part wraps at the modulus and
-//! carries into the whole. The whole wraps at its width; sums are linear, so the result is right
-//! whenever the number itself fits, even if the columns below have wrapped.
+//! The number is `whole + part / modulus` with `0 <= part < modulus`. So a quotient is exact for
+//! every modulus and needs no divider: the part wraps at the modulus and carries into the whole.
+//! The whole wraps at its width. Because sums are linear, the result is right whenever the number
+//! itself fits, even if the columns below have wrapped.
 
 use super::record_memory::RecordWord;
 use crate::hdl::Registers;
@@ -46,9 +45,10 @@ impl Default for Widths {
 pub struct DifferenceColumn {
     /// Widths of the number and of the records.
     pub widths: Widths,
-    /// The word of a record that is its whole. It clears the part.
+    /// Number of the record word that holds the whole. Loading the whole clears the part.
     pub whole_word: u64,
-    /// The word that is its part, after the whole; none where a record's part is always 0.
+    /// Number of the record word that holds the part, sent after the whole; `None` if the part is
+    /// always 0.
     pub part_word: Option<u64>,
 }
 
@@ -59,18 +59,18 @@ signals! { for DifferenceColumn as c;
         pub record: RecordWord(&c.widths.data) as Flat,
         /// Modulus of the parts: 1 to 2^(F − 1).
         pub modulus: U(c.widths.part),
-        /// Adds the column below; not with `load`.
+        /// Adds the column below. Not allowed together with `load`.
         pub step: Bit,
         /// Whole of the column below.
         pub by_whole: I(c.widths.whole),
-        /// Its part, below the modulus.
+        /// Part of the column below; less than the modulus.
         pub by_part: U(c.widths.part),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// The whole: the number, rounded down.
+        /// Whole of the number: the number rounded down.
         pub whole: I(c.widths.whole) as Analog = 0,
-        /// Rest above the whole, in units of 1/modulus.
+        /// Fraction above the whole, in units of 1/modulus.
         pub part: U(c.widths.part) = 0,
     }
     /// Nets.
@@ -79,18 +79,18 @@ signals! { for DifferenceColumn as c;
         sum: U(c.widths.part),
         /// The sum of the parts carries into the whole.
         carry: Bit,
-        /// The word is this column's whole.
+        /// The record word is the whole of this column.
         load_whole: Bit,
-        /// The word is its part.
+        /// The record word is the part of this column.
         load_part: Bit,
-        /// The number, rounded to the nearest whole, a half upwards.
+        /// Number, rounded to the nearest integer, halves up.
         pub nearest: I(c.widths.whole) as Analog,
     }
 }
 
 impl Circuit for DifferenceColumn {
     const NAME: &'static str = "difference_column";
-    const ABOUT: &'static str = "whole and part of a number, and the adder of the column below";
+    const ABOUT: &'static str = "a number as whole and part, and the adder for the column below";
     records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {

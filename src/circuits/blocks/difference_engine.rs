@@ -9,10 +9,10 @@
 //!                     └───────────────────┘
 //! ```
 //!
-//! A polynomial of the fourth degree at equal distances has constant fourth differences. A step
-//! adds each difference to the one above it, all from the values before the step, so the value of
-//! the next sample costs four additions and no product. With the first difference alone it is a
-//! line.
+//! A polynomial of the fourth degree, sampled at equal distances, has a constant fourth difference.
+//! A step adds each difference to the one above, all with their values before the step. So the next
+//! sample takes four additions and no multiplication. With the first difference alone, the
+//! polynomial is a straight line.
 
 use super::difference_column::{self, DifferenceColumn, Widths};
 use super::record_memory::RecordWord;
@@ -56,9 +56,9 @@ signals! { for DifferenceEngine as c;
     pub struct In {
         /// Word of a record.
         pub record: RecordWord(&c.widths.data) as Flat,
-        /// Modulus of the parts: M⁴ in a blend of M samples, the number of samples of a line.
+        /// Modulus of the parts: M⁴ for a blend of M samples, the number of samples for a line.
         pub modulus: U(c.widths.part),
-        /// On to the next sample; not with `load`.
+        /// Advances to the next sample. Not allowed together with `load`.
         pub step: Bit,
     }
     /// The columns.
@@ -76,14 +76,14 @@ signals! { for DifferenceEngine as c;
     }
     /// Output port.
     pub struct Net {
-        /// The coordinate, rounded to the nearest.
+        /// Coordinate, rounded to the nearest integer, halves up.
         pub nearest: I(c.widths.whole) as Analog,
     }
 }
 
 impl Circuit for DifferenceEngine {
     const NAME: &'static str = "difference_engine";
-    const ABOUT: &'static str = "quartic of one coordinate at equal distances, by four adders";
+    const ABOUT: &'static str = "samples of a quartic of one coordinate, by four adders";
     records!(In, Nothing, Net, Parts);
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {

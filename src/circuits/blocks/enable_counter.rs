@@ -39,9 +39,9 @@ signals! { for EnableCounter as c;
     }
     /// Nets.
     pub struct Net {
-        /// `count + 1`: ticks of the period that are over after this one.
+        /// `count + 1`: ticks of the period, including this one.
         next: U(c.width),
-        /// This is the last tick of the period.
+        /// High in the last tick of the period.
         pub enable: Bit,
     }
 }

@@ -1,4 +1,4 @@
-//! Blocks that more than one circuit is made of.
+//! Blocks that several circuits share.
 
 pub mod coefficient_control;
 pub mod cordic;

@@ -1,5 +1,5 @@
 //! Sequential multiplier-divider: `(multiplicand · multiplier + addend) / divisor` with remainder,
-//! one bit a tick.
+//! one bit per tick.
 //!
 //! ```text
 //!                                       ┌─────────┐
@@ -9,8 +9,9 @@
 //!                                       └─────────┘
 //! ```
 //!
-//! The product is made from the multiplier's lowest bit up, on top of the addend; the division
-//! restores, from the dividend's highest bit down. Dividend and quotient share a register.
+//! The product starts from the addend and takes the multiplier's bits from the lowest up. The
+//! division is restoring and takes the dividend's bits from the highest down. Dividend and quotient
+//! share a register.
 
 use crate::prelude::*;
 
@@ -47,61 +48,62 @@ impl MulDiv {
 signals! { for MulDiv as c;
     /// Input ports. Values given with `start` are taken in that tick and need not be held.
     pub struct In {
-        /// Starts, unless one is running.
+        /// Starts a calculation; ignored while `busy`.
         pub start: Bit,
-        /// The product with its addend is wanted, no division: it is in `quotient`.
+        /// Skips the division: `quotient` is then the product plus the addend.
         pub product_only: Bit,
         /// First factor.
         pub multiplicand: U(c.word),
         /// Second factor.
         pub multiplier: U(c.multiplier),
-        /// Added to the product; together they are below 2^Q.
+        /// Addend of the product. Product plus addend must be below 2^Q.
         pub addend: U(c.word),
-        /// Divisor of the sum, below 2^(Q − 1). By 0 the quotient is all ones.
+        /// Divisor of the sum; below 2^(Q − 1). A divisor of 0 gives a quotient of all ones.
         pub divisor: U(c.word),
     }
     /// Flip-flops.
     pub struct Reg {
         /// State of the sequence.
         state: U(2) as States(STATES) = 0,
-        /// Ticks that the state has lasted.
+        /// Ticks since the state began.
         count: U(6) = 0,
-        /// The product is all that is wanted.
+        /// `product_only` of the running calculation.
         undivided: Bit = 0,
-        /// First factor times the weight of the multiplier's lowest bit.
+        /// First factor times the weight of the next multiplier bit.
         shifted: U(c.word) = 0,
-        /// Remaining bits of the second factor.
+        /// Remaining bits of the multiplier.
         factor: U(c.multiplier) = 0,
-        /// The divisor.
+        /// Divisor of the running calculation.
         by: U(c.word) = 0,
-        /// Sum of the product, then dividend above and quotient below; the result.
+        /// Product so far; in the division, dividend bits above and quotient bits below; at the end
+        /// the result.
         pub quotient: U(c.word) = 0,
         /// Remainder of the division.
         pub remainder: U(c.word) = 0,
-        /// A result is valid at `quotient` and `remainder` from this tick on, until the next
+        /// High for one tick: `quotient` and `remainder` are valid from this tick until the next
         /// start.
         pub done: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A start is not taken.
+        /// A calculation is running; a start is ignored.
         pub busy: Bit,
-        /// A start is taken.
+        /// A start is accepted.
         take: Bit,
-        /// The remainder with the dividend's highest bit appended.
+        /// Remainder with the next dividend bit appended.
         partial: U(c.word),
-        /// The divisor goes into `partial`.
+        /// `partial` is at least the divisor: the quotient bit is 1.
         fits: Bit,
-        /// The state's last tick.
+        /// Last tick of the running state.
         last: Bit,
-        /// The result is complete with this tick.
+        /// The result is complete at the end of this tick.
         complete: Bit,
     }
 }
 
 impl Circuit for MulDiv {
     const NAME: &'static str = "mul_div";
-    const ABOUT: &'static str = "multiplies, adds and divides with remainder, one bit a tick";
+    const ABOUT: &'static str = "multiplies, adds and divides with remainder, one bit per tick";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

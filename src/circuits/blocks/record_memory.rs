@@ -10,9 +10,9 @@
 //!                           └────────────────┘
 //! ```
 //!
-//! A record is 32 words. The control computer writes them into the free record in any order and
-//! completes it by `push`; records that wait are taken first in, first out, and each is free again
-//! when its last word has been read. A path may so be of any length.
+//! A record has 32 words. The control computer writes them into the free record, in any order, and
+//! completes the record with `push`. Waiting records are taken first in, first out. A record is
+//! free again when its last word has been read, so a path can have any length.
 
 use crate::prelude::*;
 
@@ -27,7 +27,8 @@ pub(crate) const ARC: u64 = 2;
 
 /// Memory of 2^`record` records.
 ///
-/// `load` is high from the second tick after `take` on, for 32 ticks; `loaded` in the tick after them.
+/// `load` is high for 32 ticks from the second tick after `take` on; `loaded` is high in the tick
+/// after them.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecordMemory {
@@ -52,46 +53,47 @@ impl RecordMemory {
 signals! { for RecordMemory as c;
     /// Input ports.
     pub struct In {
-        /// Records to write.
+        /// Port through which records are written.
         pub record: RecordWrite(&c.data) as Flat,
-        /// Sends the next record to the blocks, if there is one and none is being sent.
+        /// Starts to send the next record to the blocks; ignored while one is being sent, or if
+        /// none waits.
         pub take: Bit,
-        /// The kind of the record that is being sent, valid from its second word on.
+        /// Kind of segment of the record that is being sent; valid from its second word on.
         pub kind: U(2) as States(KINDS),
-        /// Discards the waiting records, also one that is completed in this tick, and the rest of
-        /// the record that is being sent.
+        /// Discards the waiting records, including one completed in this tick, and the rest of the
+        /// record that is being sent.
         pub flush: Bit,
     }
     /// Flip-flops and memory.
     pub struct Reg {
-        /// The records.
+        /// Memory of the records.
         records: Ram(c.address(), c.data),
-        /// The free record.
+        /// Number of the free record.
         write_record: U(c.record) = 0,
-        /// The record that is taken next, or is being sent.
+        /// Number of the record that is being sent, or is sent next.
         read_record: U(c.record) = 0,
         /// All records are in use.
         full: Bit = 0,
-        /// A record is being sent: its words are read.
+        /// Words of a record are being read.
         reading: Bit = 0,
-        /// The word that is read.
+        /// Number of the word being read.
         read_word: U(5) = 0,
-        /// A word of a record is at `word` and `data`.
+        /// `word` and `data` hold a word of a record.
         pub load: Bit = 0,
-        /// Its number.
+        /// Number of the word in `data`.
         pub word: U(5) = 0,
-        /// The word.
+        /// Word of the record.
         pub data: U(c.data) as Hex = 0,
-        /// The last word of a record was there in the tick before.
+        /// The last word of a record was sent in the tick before.
         pub loaded: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// The word is one of a blend or a line.
+        /// A word of a blend or a line is at `word` and `data`.
         pub load_engines: Bit,
-        /// The word is one of an arc.
+        /// A word of an arc is at `word` and `data`.
         pub load_rotation: Bit,
-        /// There is a free record.
+        /// A record is free to be written.
         pub ready: Bit,
         /// A record is waiting or being sent.
         pub available: Bit,
@@ -101,13 +103,13 @@ signals! { for RecordMemory as c;
         read_address: U(c.address()) as Hex,
         /// A word is written.
         store: Bit,
-        /// The free record is completed.
+        /// The free record is completed in this tick.
         complete: Bit,
-        /// The last word of a record is read.
+        /// The last word of a record is being read.
         last: Bit,
-        /// The free record after this tick.
+        /// `write_record` of the next tick.
         next_write: U(c.record),
-        /// The record to be read after this tick.
+        /// `read_record` of the next tick.
         next_read: U(c.record),
     }
 }
@@ -115,13 +117,13 @@ signals! { for RecordMemory as c;
 signals! { for usize as data;
     /// A record as the control computer writes it; `data` is the width of a word.
     pub struct RecordWrite {
-        /// Writes a word of the free record; not taken unless `ready`.
+        /// Writes a word of the free record; ignored unless `ready`.
         pub write: Bit,
-        /// Number of the word.
+        /// Number of the word to write, 0 to 31.
         pub write_word: U(5),
-        /// Its data.
+        /// Word to write.
         pub write_data: U(*data) as Hex,
-        /// The free record is complete, with the word written in this tick; ignored unless
+        /// Completes the free record, including a word written in this tick; ignored unless
         /// `ready`.
         pub push: Bit,
     }
@@ -129,9 +131,9 @@ signals! { for usize as data;
     pub struct RecordWord {
         /// `data` is word `word` of a record.
         pub load: Bit,
-        /// Number of the word.
+        /// Number of the word in `data`.
         pub word: U(5),
-        /// Its data.
+        /// Word of the record.
         pub data: U(*data) as Hex,
     }
 }
@@ -165,7 +167,7 @@ impl RecordWord<Value> {
 
 impl Circuit for RecordMemory {
     const NAME: &'static str = "record_memory";
-    const ABOUT: &'static str = "coefficients of the segments to come, first in, first out";
+    const ABOUT: &'static str = "buffers the records of the next segments, first in, first out";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

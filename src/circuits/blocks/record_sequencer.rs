@@ -1,4 +1,4 @@
-//! Record sequencer: one segment after the other, one point for every sampling time.
+//! Record sequencer: plays segment after segment, one point per sampling time.
 //!
 //! ```text
 //!                     ┌───────────────────┐
@@ -10,14 +10,14 @@
 //!                     └───────────────────┘
 //! ```
 //!
-//! A → A⁺ → (B) → C⁻ → C of JPH0743606B2 is a blend, an arc and a blend; with lines it becomes line,
-//! blend, arc, blend, line. The sequencer does not tell these apart: each segment begins at the
-//! point where the one before it has ended, and says how many samples it has.
+//! The path A → A⁺ → (B) → C⁻ → C of JPH0743606B2 is a blend, an arc and a blend; with lines it
+//! becomes line, blend, arc, blend, line. Each segment begins at the point where the previous one
+//! has ended, and its record says how many samples it has.
 //!
-//! With `sample` the point becomes the command, and the next point is computed at once: it is
-//! ready long before the next `sample`. After the last point of a segment the next segment is
-//! fetched first. The first point of a path is the start of its first segment. A segment of 0
-//! samples outputs its starting point.
+//! At `sample` the point becomes the command, and the next point is computed at once: it is ready
+//! long before the next `sample`. After the last point of a segment, the next segment is fetched
+//! first. The first point of a path is the start of its first segment. A segment of 0 samples
+//! outputs its starting point.
 
 use super::record_memory::{ARC, KINDS, RecordWord};
 use crate::prelude::*;
@@ -47,72 +47,73 @@ pub struct RecordSequencer {
 signals! { for RecordSequencer as c;
     /// Input ports.
     pub struct In {
-        /// Starts a path, unless one is running or no segment is waiting.
+        /// Starts a path; ignored while a path runs, or if no segment waits.
         pub start: Bit,
-        /// Ends the path: the commands keep their values, waiting segments are discarded.
+        /// Ends the path. The commands keep their values; waiting segments are discarded.
         pub halt: Bit,
         /// A sampling time begins.
         pub sample: Bit,
-        /// A segment waits.
+        /// A segment is waiting.
         pub available: Bit,
         /// Word of a record.
         pub record: RecordWord(&c.data) as Flat,
-        /// The record is complete.
+        /// All words of the record have been sent.
         pub loaded: Bit,
-        /// The rotation, or another block that is waited for, has its next point.
+        /// The rotation, or another block that the sequencer waits for, has its next point.
         pub rotated: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
         /// State of the sequence.
         pub(crate) state: U(3) as States(STATES) = 0,
-        /// The point is the first of a path.
+        /// The current point is the first of a path.
         first: Bit = 0,
-        /// The segment's kind.
+        /// Kind of the current segment.
         pub kind: U(2) as States(KINDS) = 0,
-        /// The segment ends at rest.
+        /// The current segment ends at rest.
         rests: Bit = 0,
         /// Remaining points of the segment.
         remaining: U(c.samples) as Analog = 0,
-        /// The modulus of the segment's differences.
+        /// Modulus of the segment's differences.
         pub modulus: U(c.modulus) = 0,
-        /// The next record is fetched.
+        /// Fetches the next record.
         pub take: Bit = 0,
-        /// Starts the next point in the rotation, or in another block that is waited for.
+        /// Starts the next point in the rotation, or in another block that the sequencer waits for.
         pub rotate: Bit = 0,
         /// New commands are valid in this tick.
         pub sampled: Bit = 0,
-        /// A sampling time began before the point was ready; until the next path begins.
+        /// A sampling time has begun before the point was ready; cleared when the next path begins.
         pub late: Bit = 0,
-        /// The path ended in motion, since no segment waited; until the next path begins.
+        /// The path has ended in motion because no segment was waiting; cleared when the next path
+        /// begins.
         pub starved: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// The word is a record's first.
+        /// The record word is the header, word 0.
         header: Bit,
         /// A path begins.
         begins: Bit,
-        /// The segment's last point becomes the command.
+        /// The last point of the segment becomes the command.
         over: Bit,
-        /// The segment is an arc.
+        /// The current segment is an arc.
         pub rotating: Bit,
-        /// The next point is made.
+        /// The next point is started.
         makes: Bit,
-        /// The difference engines make it.
+        /// Advances the difference engines to the next point of a blend or line.
         pub advance: Bit,
         /// The point becomes the command.
         pub present: Bit,
         /// A path is running.
         pub busy: Bit,
-        /// A sampling time begins too early.
+        /// A sampling time begins before the point is ready.
         hurried: Bit,
     }
 }
 
 impl Circuit for RecordSequencer {
     const NAME: &'static str = "record_sequencer";
-    const ABOUT: &'static str = "segment after segment, a point for every sampling time";
+    const ABOUT: &'static str = "plays segment after segment, one point per sampling time";
     records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {

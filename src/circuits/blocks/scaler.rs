@@ -1,4 +1,4 @@
-//! Scaler: a word times a gain, one bit of the gain a tick.
+//! Scaler: multiplies a word by a gain, one bit of the gain per tick.
 //!
 //! ```text
 //!         ┌────────┐
@@ -9,9 +9,8 @@
 //!         └────────┘
 //! ```
 //!
-//! A gain has one bit before the point: 0 to just below 2. The product is rounded down to a whole
-//! word; the bits that rounding drops are lost, so to keep a fraction, pass it as the lower bits
-//! of the value.
+//! A gain has one integer bit, so it ranges from 0 to just below 2. The product is rounded down to
+//! an integer. To keep a fraction, pass it in the lower bits of the value.
 
 use crate::prelude::*;
 
@@ -23,7 +22,7 @@ use crate::prelude::*;
 pub struct Scaler {
     /// K: width of a gain, 2 to 64.
     pub gain: usize,
-    /// Q: width of a value's word; the value has a bit less.
+    /// Q: width of a value's word; the value itself has Q − 1 bits.
     pub value: usize,
 }
 
@@ -37,7 +36,7 @@ impl Scaler {
 signals! { for Scaler as c;
     /// Input ports. Values given with `start` are taken in that tick and need not be held.
     pub struct In {
-        /// Starts, unless one is running.
+        /// Starts a product; ignored while one is running.
         pub start: Bit,
         /// Aborts; a start in the same tick is ignored.
         pub clear: Bit,
@@ -50,33 +49,33 @@ signals! { for Scaler as c;
     pub struct Reg {
         /// A product is being computed.
         busy: Bit = 0,
-        /// Index of the current bit of the gain.
+        /// Index of the current gain bit, lowest first.
         bit_index: U(6) = 0,
-        /// Value to scale.
+        /// Value that is being scaled.
         factor: U(c.value) = 0,
         /// Remaining bits of the gain.
         bits: U(c.gain) as Hex = 0,
-        /// Partial product, in units of the next bit's weight; then the result.
+        /// Partial product, in units of the next bit's weight; at the end the result.
         pub scaled: U(c.value) = 0,
-        /// The result is valid from this tick on, until the next start.
+        /// High for one tick: `scaled` is valid from this tick until the next start.
         pub done: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A start is taken.
+        /// A start is accepted.
         take: Bit,
-        /// The bit is the last, the one before the point.
+        /// The current bit is the last one, the integer bit.
         last: Bit,
-        /// Another bit comes after it.
+        /// Another bit follows in the next tick.
         more: Bit,
-        /// Product plus the term of this bit.
+        /// Partial product plus the term of the current bit.
         total: U(c.value),
     }
 }
 
 impl Circuit for Scaler {
     const NAME: &'static str = "scaler";
-    const ABOUT: &'static str = "a word times a gain, rounded down, a bit a tick";
+    const ABOUT: &'static str = "multiplies a word by a gain, rounded down, one bit per tick";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

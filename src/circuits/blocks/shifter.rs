@@ -1,4 +1,4 @@
-//! Shifter: a word divided by a power of two that is chosen in the run, rounded down.
+//! Shifter: divides a word by a power of two that is an input, rounded down.
 //!
 //! ```text
 //!         ┌─────────┐
@@ -27,24 +27,24 @@ signals! { for Shifter as c;
     }
     /// Nets.
     pub struct Net {
-        /// By the lowest bit of `by`.
+        /// `word` shifted by bit 0 of `by`.
         by_1: I(c.width),
-        /// By two bits of it.
+        /// `word` shifted by bits 1 to 0 of `by`.
         by_3: I(c.width),
-        /// By three.
+        /// `word` shifted by bits 2 to 0 of `by`.
         by_7: I(c.width),
-        /// By four.
+        /// `word` shifted by bits 3 to 0 of `by`.
         by_15: I(c.width),
-        /// By five.
+        /// `word` shifted by bits 4 to 0 of `by`.
         by_31: I(c.width),
-        /// By all of it.
+        /// `word` shifted right by `by`: divided by 2^by, rounded down.
         pub shifted: I(c.width),
     }
 }
 
 impl Circuit for Shifter {
     const NAME: &'static str = "shifter";
-    const ABOUT: &'static str = "a word divided by a power of two, rounded down";
+    const ABOUT: &'static str = "divides a word by a power of two, rounded down";
     records!(In, Nothing, Net);
 
     fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {

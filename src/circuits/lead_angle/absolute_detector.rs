@@ -1,5 +1,5 @@
-//! Position detector 10 as an absolute encoder of a turn: its word, taken with its own sampling clock
-//! and continued beyond the turn.
+//! Position detector 10 as a single-turn absolute encoder: its word is taken with the encoder's own
+//! sampling clock, and the position is continued over the turns.
 //!
 //! ```text
 //!           ┌───────────────── absolute detector ─────────────────┐
@@ -15,10 +15,10 @@
 use super::{GrayReceiver, Unwrapper, gray_receiver, unwrapper};
 use crate::prelude::*;
 
-/// Absolute detector of a turn, with a position that continues over the turns.
+/// Single-turn absolute detector, with a position that continues over the turns.
 ///
-/// A word at the pins from tick n on, with its strobe, is in `position` from n + 4 on, with `sample`
-/// in that tick.
+/// A word that is at the pins with its strobe from tick n on is in `position` from tick n + 4 on.
+/// `sample` is high in tick n + 4.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AbsoluteDetector {
@@ -31,14 +31,14 @@ pub struct AbsoluteDetector {
 signals! { for AbsoluteDetector as c;
     /// Input ports.
     pub struct In {
-        /// The encoder's sampling clock, asynchronous; a new word comes with each rise. High and low
-        /// for a tick at least, four ticks from rise to rise.
+        /// Sampling clock of the encoder, asynchronous; a new word comes with each rising edge.
+        /// High and low for at least one tick; at least four ticks from edge to edge.
         pub strobe: Bit,
-        /// The encoder's word in Gray code, asynchronous.
+        /// Word of the encoder in Gray code, asynchronous.
         pub code: U(c.code) as Hex,
         /// T: counts of a turn; 0 for 2^code.
         pub turn: U(c.code),
-        /// The next word is taken for the position, as after power-on; `lost` off.
+        /// The next place becomes the position, as after power-on; clears `lost`.
         pub clear: Bit,
     }
     /// The circuits inside.
@@ -50,18 +50,18 @@ signals! { for AbsoluteDetector as c;
     }
     /// Output ports.
     pub struct Net {
-        /// A sample is new in this tick: CK.
+        /// High for one tick: `position` is a new sample. CK of the memory 11.
         pub sample: Bit,
-        /// Dx: place in the turn, and the turns since; wraps.
+        /// Dx: place in the turn plus the counts of whole turns; wraps.
         pub position: I(c.position) as Analog,
-        /// The encoder was too fast, or a word was outside the turn, since `clear`.
+        /// The encoder was too fast, or a word was outside the turn; cleared by `clear`.
         pub lost: Bit,
     }
 }
 
 impl Circuit for AbsoluteDetector {
     const NAME: &'static str = "absolute_detector";
-    const ABOUT: &'static str = "position from the Gray words of an absolute encoder of a turn";
+    const ABOUT: &'static str = "position from the Gray words of a single-turn absolute encoder";
     records!(In, Nothing, Net, Parts);
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {

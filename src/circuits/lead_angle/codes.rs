@@ -1,4 +1,4 @@
-//! Grid of lead times, from the text's table, for programs.
+//! Grid of lead times from the text's table, for programs.
 //!
 //! ```text
 //! N   codes                 at a CK of 0.1 ms
@@ -10,25 +10,25 @@
 
 use crate::hdl::log2;
 
-/// Stages of the text's history.
+/// Stages of history in the text.
 pub const STAGES: u64 = 199;
 
-/// The largest code that they allow.
+/// Largest code of this history.
 pub const LARGEST: u64 = largest(STAGES as usize);
 
-/// The largest code that `stages` stages allow.
+/// Largest code that `stages` stages allow.
 #[must_use]
 pub const fn largest(stages: usize) -> u64 {
     10 * stages as u64
 }
 
-/// Width of a tap, which names each of `stages` stages and none.
+/// Width of a tap: one of `stages` stages, or none.
 #[must_use]
 pub fn tap_width(stages: usize) -> usize {
     log2(stages + 1)
 }
 
-/// Width of a time, which is a code or none.
+/// Width of a time: a code, or none.
 #[must_use]
 pub fn time_width(stages: usize) -> usize {
     log2(10 * stages + 1)
@@ -45,11 +45,11 @@ pub struct Code {
     pub tap: u64,
 }
 
-/// The ratios that there are.
+/// Possible ratios.
 const RATIOS: [u64; 4] = [1, 2, 5, 10];
 
-/// All codes that `stages` stages of history allow, in rising order: a ratio begins where the
-/// ratio before it ends.
+/// Returns all codes that `stages` stages of history allow, in rising order. A ratio begins where
+/// the previous one ends.
 #[must_use]
 pub fn grid(stages: u64) -> Vec<Code> {
     let mut codes: Vec<Code> = Vec::new();
@@ -65,14 +65,14 @@ pub fn grid(stages: u64) -> Vec<Code> {
     codes
 }
 
-/// The code of a time in CKs, if it is one.
+/// Returns the code of a time in CKs, if there is one.
 #[must_use]
 pub fn code(stages: u64, time: u64) -> Option<Code> {
     grid(stages).into_iter().find(|code| code.time == time)
 }
 
-/// Returns the code of a time in CKs as the ratio logic rounds it: its own, or the nearest of the
-/// range that it is in.
+/// Returns the code of a time in CKs as the ratio logic rounds it: its own code, or the nearest
+/// code of its range.
 #[must_use]
 pub fn rounded(stages: u64, time: u64) -> Code {
     let below = grid(stages)

@@ -1,4 +1,4 @@
-//! Comparator 19: the control signal, when the compared position reaches the compared target.
+//! Comparator 19: gives the control signal when the compared position reaches the compared target.
 //!
 //! ```text
 //!                               ┌────────────┐
@@ -10,14 +10,13 @@
 //!
 //! From the first `arm` on, the position is evaluated where `evaluate` and `valid` are high. A
 //! *crossing* is the arrival at the target, or a step over it, from either side; it counts once.
-//! The first after `arm` is `fire`, and holds the control signal until the next `arm`.
+//! The first crossing after `arm` is `fire`; it holds the control signal until the next `arm`.
 //!
 //! Departures: the text compares for equality, which hits only one target in v where the position
-//! moves on by v > 1 counts per CK. That is the variant [`Comparing::Equal`]. At the far side of
-//! the ring the difference changes its sign too; to tell a crossing from that jump, moves must be
-//! below a quarter of the range per CK. `arm`, the latch and `halt`, which gives the control
-//! signal without a crossing, are additions.
-//! gives the control signal without a crossing, are additions.
+//! moves by v > 1 counts per CK. That is the variant [`Comparing::Equal`]. At the far side of the
+//! ring the difference changes its sign too; to tell a crossing from that jump, moves must be below
+//! a quarter of the range per CK. `arm`, the latch and `halt`, which gives the control signal
+//! without a crossing, are additions.
 
 use crate::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -57,11 +56,11 @@ signals! { for Comparator as c;
         pub evaluate: Bit,
         /// Position and target are valid.
         pub valid: Bit,
-        /// The position, with its lead.
+        /// Position, with its share of the lead.
         pub position: I(c.position),
-        /// The target, with its lead.
+        /// Target, with its share of the lead.
         pub target: I(c.position),
-        /// Takes the control signal back and forgets the side; goes before all else.
+        /// Clears the control signal and forgets the side; has priority over all other inputs.
         pub arm: Bit,
         /// Gives the control signal immediately.
         pub halt: Bit,
@@ -70,22 +69,22 @@ signals! { for Comparator as c;
     pub struct Reg {
         /// Side of the target at the last evaluation since `arm`.
         side: U(2) as States(SIDES) = 0,
-        /// Evaluation is enabled: from the first `arm` on.
+        /// Evaluation is enabled; high from the first `arm` on.
         armed: Bit = 0,
-        /// The control signal, from the first crossing, or a halt, to the next `arm`.
+        /// Control signal: high from the first crossing, or a halt, until the next `arm`.
         pub control: Bit = 0,
         /// The crossing that fired came from below.
         pub upward: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// Position minus target, the short way round the ring.
+        /// Position minus target, the shorter way round the ring.
         pub difference: I(c.position) as Analog,
         /// The position is evaluated in this tick.
         look: Bit,
-        /// The position is the target.
+        /// Position and target are equal.
         equal: Bit,
-        /// The position is on this half of the ring.
+        /// The difference is below a quarter of the range.
         near: Bit,
         /// The position reaches or passes the target from below.
         upwards: Bit,

@@ -1,4 +1,4 @@
-//! The whole compensator (Figs 1 and 6): position detector 10, control 22, target setter 18, time
+//! Complete compensator (Figs 1 and 6): position detector 10, control 22, target setter 18, time
 //! data supply 21, completion detector 26, correction 23, and the sequencer that runs the steps.
 //!
 //! ```text
@@ -12,12 +12,12 @@
 //!                                     └─────────────┘
 //! ```
 //!
-//! The position comes from an incremental encoder, or from a detector of places in a turn or a
-//! pitch whose clock is CK. The lead comes from the time Δt, with the history as a shift register
-//! or as a RAM, in any of the equal [forms](super::LeadForm), or from the speed as in Fig. 7, by a
+//! The position comes from an incremental encoder, or from a detector of places in a turn or pitch,
+//! which supplies CK. The lead comes from the time Δt, with the history as a shift register or as a
+//! RAM, in any of the equal [forms](super::LeadForm); or from the speed as in Fig. 7, by a
 //! parameter or a memory. `brake` is the control signal; it holds from the crossing through the
-//! rest up to the next step. With `passing` the body does not stop, and `operate` is the control
-//! signal in place of `brake`: for an operation that is complete with its `effect`.
+//! rest until the next step. With `passing` the body does not stop, and `operate` is the control
+//! signal in place of `brake`: for an operation that is complete when it takes `effect`.
 
 use super::detector::{Detected, DetectorPart, DetectorSource};
 use super::grid::{self, Grid, GridPart};
@@ -33,11 +33,12 @@ use crate::prelude::*;
 
 /// Compensator.
 ///
-/// `fire` is high one tick after the tick of CK in which a position is present, `brake` two.
+/// If a position that is present in the tick of CK reaches the target, `fire` is high one tick
+/// later and `brake` two ticks later.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Compensator {
-    /// Its widths.
+    /// Word widths.
     pub widths: Widths,
     /// Source of the lead.
     pub lead_from: LeadFrom,
@@ -69,103 +70,105 @@ impl Compensator {
 signals! { for Compensator as c;
     /// Input ports: encoder, control computer, settings.
     pub struct In {
-        /// Incremental encoder, channel A.
+        /// Channel A of the incremental encoder.
         pub a: Bit,
-        /// Incremental encoder, channel B.
+        /// Channel B of the incremental encoder.
         pub b: Bit,
-        /// Absolute encoder, its sampling clock; resolver, its words are new.
+        /// Absolute encoder: sampling clock. Resolver: its words are new.
         pub strobe: Bit,
-        /// Absolute encoder, its Gray word.
+        /// Absolute encoder: word in Gray code.
         pub code: U(c.widths.code) as Hex,
-        /// Phase-shift transducer: its secondary is above zero.
+        /// Phase-shift transducer: the secondary is above zero.
         pub secondary: Bit,
-        /// Resolver: its sine winding, at a peak of the carrier.
+        /// Resolver: sine winding, sampled at a peak of the carrier.
         pub sine: I(c.widths.converter),
-        /// Resolver: its cosine winding.
+        /// Resolver: cosine winding, sampled at a peak of the carrier.
         pub cosine: I(c.widths.converter),
-        /// Counts of an absolute encoder's turn, of a resolver's pitch, or of a phase-shift
-        /// transducer's, which are ticks of its carrier; 0 for all words.
+        /// Counts of an absolute encoder's turn or of a resolver's pitch; ticks of a phase-shift
+        /// transducer's carrier period. 0 for the full range of the word.
         pub turn: U(c.widths.code),
-        /// Between two steps: sets the position to 0, or to the next place in turn or pitch,
-        /// restarts the history and clears the flags.
+        /// Sets the position to 0, or to the next place in turn or pitch, restarts the history and
+        /// clears the flags. For use between two steps.
         pub clear: Bit,
-        /// Steps run one after the other; when it goes low the running one is the last.
+        /// Runs the steps one after the other; when it falls, the running step is the last.
         pub run: Bit,
         /// Ends the move of this step immediately; nothing is learned from it.
         pub halt: Bit,
-        /// The body does not stop: the control signal starts an operation in passing.
+        /// High: the body does not stop, and the control signal starts an operation in passing.
         pub passing: Bit,
-        /// The operation takes effect; synchronised. Without `passing` it does nothing.
+        /// High when the operation takes effect; synchronous to the clock. Used with `passing`
+        /// only.
         pub effect: Bit,
-        /// Times are learned.
+        /// Enables learning.
         pub learn: Bit,
         /// All steps share the time of step 0.
         pub common: Bit,
-        /// The step after which step 0 comes.
+        /// Number of the last step; step 0 follows it.
         pub last_step: U(c.widths.step),
-        /// Ticks of CK; 0 counts as 1. Encoders of places have a CK of their own.
+        /// Period of CK in ticks; 0 counts as 1. Detectors of places supply their own CK.
         pub ck_period: U(c.widths.ck_period),
-        /// CKs without a change that are a standstill.
+        /// CKs without a change that count as a standstill; 0 counts as 1.
         pub standstill: U(c.widths.cks),
-        /// CKs from the control signal on after which a positioning is complete anyway.
+        /// CKs from the control signal after which a positioning is complete in any case; 0 counts
+        /// as 1.
         pub time_out: U(c.widths.cks),
-        /// CKs between two steps.
+        /// Pause between two steps, in CKs.
         pub rest: U(c.widths.cks),
-        /// The time that a step begins to learn with that has none.
+        /// Time from which a step without a time begins to learn, in CKs.
         pub seed: U(c.widths.time()),
-        /// a of Fig. 7: lead time in gates, in 1/256.
+        /// a of Fig. 7: lead time in units of 1/256 gate.
         pub lead_parameter: U(14),
-        /// CKs of a gate of Fig. 7.
+        /// Length of the gate of Fig. 7, in CKs; 0 counts as 1.
         pub gate: U(c.widths.cks),
-        /// A target and its speed are written.
+        /// Writes a target and its speed.
         pub write_target: Bit,
-        /// A time is written; off the grid it is refused.
+        /// Writes a time; a time off the grid is refused.
         pub write_time: Bit,
-        /// The step that is written.
+        /// Number of the step to write.
         pub write_step: U(c.widths.step),
-        /// The target that is written.
+        /// Target to write.
         pub step_target: I(c.widths.position),
-        /// The speed that is written.
+        /// Speed to write.
         pub step_speed: U(c.widths.speed),
-        /// The time that is written, in CKs.
+        /// Time to write, in CKs.
         pub step_time: U(c.widths.time()),
     }
     /// The circuits inside.
     pub struct Parts {
-        /// CK.
+        /// Counter for CK.
         pub ck_counter: Part<EnableCounter>(EnableCounter { width: c.widths.ck_period }),
-        /// 10.
+        /// Position detector 10.
         pub detector: DetectorPart(&DetectorSource::of(c.variant.detector, &c.widths)),
         /// Lead, by time or by speed.
         pub lead_source: LeadPart(&LeadSource::of(&c.lead_from, &c.widths)),
-        /// 18.
+        /// Target setter 18.
         pub target_setter: Part<TargetSetter>(TargetSetter {
             step: c.widths.step, position: c.widths.position, speed: c.widths.speed,
         }),
         /// Check that a written time is on the grid.
         pub write_check: GridPart(&Grid::of(c.lead_from.form().division(), c.widths.stages)),
-        /// 21.
+        /// Time data supply 21.
         pub time_data: Part<TimeData>(c.time_data()),
-        /// 17 or 20.
+        /// Adder 17 or subtractor 20.
         pub placement: Part<LeadPlacement>(LeadPlacement {
             position: c.widths.position, placement: c.variant.placement,
         }) if c.placed(),
-        /// 19.
+        /// Comparator 19.
         pub comparator: Part<Comparator>(Comparator {
             position: c.widths.position, comparing: c.variant.comparing,
         }),
         /// Position at which an operation took effect.
         pub probe: Part<TouchProbe>(TouchProbe { position: c.widths.position }),
-        /// 26.
+        /// Completion detector 26.
         pub completion: Part<CompletionDetector>(CompletionDetector {
             position: c.widths.position, time: c.widths.cks,
         }),
-        /// 23.
+        /// Correction 23.
         pub correction: Part<Correction>(Correction {
             stages: c.widths.stages, position: c.widths.position, sign: c.variant.sign,
             function: c.variant.function, division: c.lead_from.form().division(),
         }),
-        /// The steps.
+        /// Sequencer of the steps.
         pub sequencer: Part<StepSequencer>(StepSequencer {
             step: c.widths.step, position: c.widths.position, rest: c.widths.cks,
         }),
@@ -181,41 +184,41 @@ signals! { for Compensator as c;
         pub predicted: I(c.widths.position) as Analog,
         /// Sx: the target of this step.
         pub target: I(c.widths.position) as Analog,
-        /// Δt1: the lead time of this step.
+        /// Δt1: lead time of this step, in CKs.
         pub lead_time: U(c.widths.time()) as Analog,
-        /// The step that runs, or is next.
+        /// Number of the running step, or of the next one.
         pub step: U(c.widths.step),
-        /// A step runs.
+        /// A step is running.
         pub busy: Bit,
         /// The motor is on.
         pub drive: Bit,
-        /// The motor turns downwards.
+        /// Direction of the motor; high counts down.
         pub reverse: Bit,
         /// Speed of this step, for the drive.
         pub speed: U(c.widths.speed),
-        /// The control signal begins.
+        /// High for one tick: the control signal begins.
         pub fire: Bit,
-        /// The control signal, where it stops the body.
+        /// Control signal that stops the body, without `passing`.
         pub brake: Bit,
-        /// The control signal, where it starts an operation in passing.
+        /// Control signal that starts an operation, with `passing`.
         pub operate: Bit,
-        /// The positioning is complete.
+        /// High for one tick: the positioning is complete.
         pub complete: Bit,
-        /// The positioning was completed by its time-out.
+        /// The last positioning was completed by its time-out.
         pub timed_out: Bit,
-        /// d1: distance since the control signal.
+        /// d1: distance since the control signal, positive upwards.
         pub overrun: I(c.widths.position),
-        /// d2: distance past the target.
+        /// d2: distance past the target, positive upwards.
         pub error: I(c.widths.position),
-        /// A time is learned in this tick.
+        /// High for one tick: a time is learned.
         pub learned: Bit,
-        /// Δt2: the time that is learned.
+        /// Δt2: learned time, in CKs; valid with `learned`.
         pub learned_time: U(c.widths.time()),
-        /// A written time was refused since `clear`.
+        /// A written time was refused; cleared by `clear`.
         pub refused: Bit,
-        /// The encoder was too fast since `clear`, or its signal wrong.
+        /// The encoder was too fast, or its signal was wrong; cleared by `clear`.
         pub lost: Bit,
-        /// Phase of a phase-shift detector's carrier, for the D/A converters of the primaries.
+        /// Phase of the carrier of a phase-shift detector, for the D/A converters of the primaries.
         pub carrier: U(c.widths.code) if (c.variant.detector == Detector::PhaseShift),
     }
 }

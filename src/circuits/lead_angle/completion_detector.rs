@@ -10,11 +10,11 @@
 //! ```
 //!
 //! Departure: the text leaves open how long a standstill has to last and which of the two
-//! conditions is used. Both are, and `timed_out` tells which one it was.
+//! conditions is used. Here both are used, and `timed_out` is high if neither was met in time.
 
 use crate::prelude::*;
 
-/// Completion detector 26; `complete` shows in the tick after the sample that decides.
+/// Completion detector 26; `complete` is high in the tick after the sample that decides.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CompletionDetector {
@@ -31,52 +31,54 @@ signals! { for CompletionDetector as c;
         pub evaluate: Bit,
         /// Dx.
         pub position: I(c.position),
-        /// The control signal has been given for the step that runs.
+        /// The control signal has been given for the running step.
         pub active: Bit,
         /// The operation that the control signal starts has taken effect.
         pub effect: Bit,
-        /// CKs without a change that are a standstill; 0 counts as 1.
+        /// CKs without a change that count as a standstill; 0 counts as 1.
         pub standstill: U(c.time),
-        /// CKs from the control signal on after which it is complete anyway; 0 counts as 1.
+        /// CKs from the control signal after which the positioning is complete in any case; 0
+        /// counts as 1.
         pub time_out: U(c.time),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// The sample before.
+        /// Previous sample.
         last: I(c.position),
-        /// CKs without a change.
+        /// CKs without a change so far.
         still: U(c.time) as Analog,
         /// CKs since the control signal.
         elapsed: U(c.time) as Analog,
-        /// The positioning is complete; one tick.
+        /// High for one tick: the positioning is complete.
         pub complete: Bit,
-        /// The time was over before standstill or effect; until the next positioning.
+        /// The time-out came before standstill or effect; valid until the next positioning is
+        /// complete.
         pub timed_out: Bit,
     }
     /// Nets.
     pub struct Net {
-        /// The sample equals the one before.
+        /// The sample equals the previous one.
         same: Bit,
-        /// CKs without a change, this one included.
+        /// CKs without a change, including this one.
         next_still: U(c.time),
-        /// CKs since the control signal, this one included.
+        /// CKs since the control signal, including this one.
         next_elapsed: U(c.time),
-        /// A positioning is being completed.
+        /// A positioning is waiting for its completion.
         running: Bit,
         /// The body stands still.
         stands: Bit,
         /// The body stands still, or the operation has taken effect.
         done: Bit,
-        /// The positioning is complete with this sample.
+        /// The positioning is completed by this sample.
         over: Bit,
-        /// The times are counted in this tick.
+        /// The counts are enabled in this tick.
         counts: Bit,
     }
 }
 
 impl Circuit for CompletionDetector {
     const NAME: &'static str = "completion_detector";
-    const ABOUT: &'static str = "finds that the body stands still, or that its time is over";
+    const ABOUT: &'static str = "detects that the body stands still, or that the time-out is over";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

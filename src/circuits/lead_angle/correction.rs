@@ -1,4 +1,4 @@
-//! Correction 23: from a completed positioning to the next lead time of its step.
+//! Correction 23: computes the next lead time of a step from its completed positioning.
 //!
 //! ```text
 //!                               ┌────────────┐
@@ -8,10 +8,10 @@
 //!                               └────────────┘
 //! ```
 //!
-//! Error 27, position register 30 and overrun 31, the arithmetic 28 with a sequential
-//! multiplier-divider, and the [grid] for the result, which is that of the ratio logic unless
-//! N is fixed at 1. To second order the [refinement] has it divided twice; by the
-//! [exact relation](exact_relation) it is divided once, by another divisor.
+//! Contains error 27, position register 30 and overrun 31, the arithmetic 28 with a sequential
+//! multiplier-divider, and the [grid] for the result: that of the ratio logic, unless N is fixed at
+//! 1. For the second order, the [refinement] divides twice. For the [exact
+//! relation](exact_relation), the division is made once, with another divisor.
 
 use super::grid::{self, Grid, GridPart};
 use super::{CorrectionArithmetic, Division, ExactRelation, Refinement, Sign, StopError};
@@ -36,7 +36,7 @@ pub enum Function {
 
 /// Correction 23.
 ///
-/// `corrected` comes a tick after `complete`, or, where something is learned by a division,
+/// `corrected` is high one tick after `complete`; where a division is needed,
 /// [`latency`](Correction::latency) ticks after it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -103,59 +103,59 @@ impl Correction {
 signals! { for Correction as c;
     /// Input ports.
     pub struct In {
-        /// The control signal begins.
+        /// High for one tick: the control signal begins.
         pub fire: Bit,
-        /// The positioning is complete.
+        /// High for one tick: the positioning is complete.
         pub complete: Bit,
         /// Dx.
         pub position: I(c.position),
-        /// Sx, constant from `fire` to `corrected`.
+        /// Sx; constant from `fire` to `corrected`.
         pub target: I(c.position),
-        /// Δt1, constant from `fire` to `corrected`.
+        /// Δt1 in CKs; constant from `fire` to `corrected`.
         pub lead_time: U(c.arithmetic().time()),
         /// Enables learning.
         pub learn: Bit,
-        /// The control signal was not given by the comparator.
+        /// The control signal did not come from the comparator.
         pub missed: Bit,
-        /// The time that a step begins with that has none.
+        /// Time from which a step without a time begins to learn, in CKs.
         pub seed: U(c.arithmetic().time()),
     }
     /// The circuits inside.
     pub struct Parts {
-        /// 27, 30, 31.
+        /// Error 27, position register 30, overrun 31.
         pub stop_error: Part<StopError>(StopError { position: c.position, sign: c.sign }),
-        /// 28.
+        /// Arithmetic 28.
         pub arithmetic: Part<CorrectionArithmetic>(c.arithmetic()),
         /// Second division, for the second order.
         pub refinement: Part<Refinement>(c.refinement()) if c.second_order(),
         /// Choice of the divisor, for the exact relation.
         pub exact_relation: Part<ExactRelation>(c.exact_relation()) if c.exact(),
-        /// The divider.
+        /// Divider.
         pub mul_div: Part<MulDiv>(c.mul_div()),
         /// Puts the result on the grid.
         pub grid: GridPart(&Grid::of(c.division, c.stages)),
     }
     /// Output ports.
     pub struct Net {
-        /// d1: distance since the control signal.
+        /// d1: distance since the control signal, positive upwards.
         pub overrun: I(c.position),
-        /// d2: distance past the target.
+        /// d2: distance past the target, positive upwards.
         pub error: I(c.position),
-        /// Δt2.
+        /// Δt2 in CKs, on the grid.
         pub learned_time: U(c.arithmetic().time()),
-        /// Δt2 divided into N above Δt/N, where the time data are.
+        /// Δt2 as divided time data: N in the upper bits, Δt/N in the lower bits.
         pub learned_data: U(grid::word(c.division, c.stages))
             if (c.division == Division::Beforehand),
-        /// Δt2 is new in this tick.
+        /// High for one tick: Δt2 is a new time.
         pub learned: Bit,
-        /// The correction is over, with a new time or without; one tick.
+        /// High for one tick: the correction is over, with or without a new time.
         pub corrected: Bit,
     }
 }
 
 impl Circuit for Correction {
     const NAME: &'static str = "correction";
-    const ABOUT: &'static str = "learns the lead time of a step from how it stopped";
+    const ABOUT: &'static str = "learns the lead time of a step from where it stopped";
     records!(In, Nothing, Net, Parts);
 
     fn name(&self) -> &'static str {

@@ -8,12 +8,12 @@
 //!                             └───────────────────────┘──▶ corrected
 //! ```
 //!
-//! The quotient is rounded to the nearest and made of amounts; its sign is that of d2/d1, so it is
-//! right for both directions. `raw` is put on the grid by the [ratio logic](super::ratio_logic).
+//! The quotient is rounded to the nearest and made of magnitudes. Its sign is that of d2/d1, so it
+//! is right for both directions. The [ratio logic](super::ratio_logic) puts `raw` on the grid.
 //!
 //! Departures, all of them where the text is silent: an overrun of 0 teaches nothing. A time of 0
-//! would never change, so it begins with `seed` if there was an error. The result is at least one
-//! CK and at most the last code. A positioning that was halted teaches nothing.
+//! would never change, so learning begins with `seed` if there was an error. The result is at least
+//! one CK and at most the largest code. A positioning that was halted teaches nothing.
 
 use super::codes;
 use crate::prelude::*;
@@ -49,45 +49,45 @@ impl CorrectionArithmetic {
 signals! { for CorrectionArithmetic as c;
     /// Input ports.
     pub struct In {
-        /// The positioning is complete.
+        /// High for one tick: the positioning is complete.
         pub complete: Bit,
         /// Enables learning.
         pub learn: Bit,
-        /// The control signal was not given by the comparator.
+        /// The control signal did not come from the comparator.
         pub missed: Bit,
         /// Δt1 in CKs.
         pub lead_time: U(c.time()),
-        /// d1.
+        /// d1: distance since the control signal.
         pub overrun: I(c.position),
-        /// d2.
+        /// d2: distance past the target.
         pub error: I(c.position),
-        /// The time that a step begins with that has none.
+        /// Time from which a step without a time begins to learn, in CKs.
         pub seed: U(c.time()),
-        /// The divider has its result.
+        /// The divider has a result.
         pub done: Bit,
-        /// The divider's result: |Δtd|.
+        /// |Δtd| from the divider.
         pub quotient: U(c.word()),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// The divider works on a correction.
+        /// The divider is working on a correction.
         dividing: Bit,
         /// Δtd is negative.
         pub negative: Bit,
-        /// Δt2 before it is put on the grid.
+        /// Δt2 in CKs, before it is put on the grid.
         pub raw: U(c.time()),
-        /// `raw` is a new time; one tick.
+        /// High for one tick: `raw` is a new time.
         pub learned: Bit,
-        /// The correction is over, with a new time or without; one tick.
+        /// High for one tick: the correction is over, with or without a new time.
         pub corrected: Bit,
     }
     /// Nets.
     pub struct Net {
-        /// A correction is wanted.
+        /// A correction is requested.
         wanted: Bit,
-        /// The correction is wanted and can be made by a division.
+        /// Starts the divider.
         pub divide: Bit,
-        /// The step begins with the seed.
+        /// The step takes the seed as its time.
         sow: Bit,
         /// |d2|, first factor.
         pub multiplicand: U(c.word()),
@@ -95,15 +95,15 @@ signals! { for CorrectionArithmetic as c;
         pub multiplier: U(c.time()),
         /// |d1|.
         pub divisor: U(c.word()),
-        /// Half of |d1|: the quotient is rounded to the nearest.
+        /// Half of |d1|, which rounds the quotient to the nearest.
         pub addend: U(c.word()),
-        /// The division of a correction is over.
+        /// The division of a correction ends.
         divided: Bit,
         /// Δt1 + |Δtd|.
         sum: U(c.word()),
         /// Δt1 + |Δtd|, at most the largest code.
         longer: U(c.time()),
-        /// |Δtd| takes all of Δt1.
+        /// |Δtd| is at least Δt1.
         vanishes: Bit,
         /// Δt1 − |Δtd|.
         rest: U(c.word()),
@@ -114,7 +114,7 @@ signals! { for CorrectionArithmetic as c;
 
 impl Circuit for CorrectionArithmetic {
     const NAME: &'static str = "correction_arithmetic";
-    const ABOUT: &'static str = "the next lead time from overrun and error";
+    const ABOUT: &'static str = "next lead time from overrun and error";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

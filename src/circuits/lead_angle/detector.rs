@@ -9,7 +9,7 @@ use crate::circuits::blocks::{QuadratureCounter, quadrature_counter};
 use crate::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// The kind of a compensator's position detector.
+/// Kind of a compensator's position detector.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Detector {
@@ -25,7 +25,7 @@ pub enum Detector {
 }
 
 choice! {
-    /// 10.
+    /// Position detector 10.
     pub enum DetectorSource as DetectorPart {
         /// The counter.
         Incremental(QuadratureCounter),

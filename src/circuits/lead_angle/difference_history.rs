@@ -1,4 +1,4 @@
-//! Position history with the subtractor 15 between memory 11 and take-out 14.
+//! Position history with subtractor 15 between memory 11 and take-out 14.
 //!
 //! ```text
 //!                          ┌────────────────────┐
@@ -32,13 +32,13 @@ pub struct DifferenceHistory {
 signals! { for DifferenceHistory as c;
     /// Sample and difference at the outputs.
     pub struct DifferencePair {
-        /// Dx: the present sample.
+        /// Dx: present sample.
         pub present: I(c.position) as Analog,
-        /// 15: Δx, the distance since the sample `tap` CKs before it.
+        /// 15: Δx, the distance since the sample `tap` CKs earlier.
         pub difference: I(c.position) as Analog,
-        /// N of this pair.
+        /// N of the pair.
         pub pair_ratio: U(4),
-        /// The earlier sample was taken since the last restart, or none is wanted.
+        /// The earlier sample was taken since the last restart, or `tap` was 0.
         pub enough: Bit,
         /// The pair is new in this tick.
         pub fresh: Bit,
@@ -49,14 +49,14 @@ signals! { for DifferenceHistory as c;
     pub struct Reg {
         /// Pair at the outputs.
         pub pair: DifferencePair(c),
-        /// 11: stage k holds the sample k CKs before the present one.
+        /// 11: stage k holds the sample k CKs older than the present one.
         stages: Shift(c.stages, c.position),
     }
     /// Nets.
     pub struct Net {
         /// Selection of the stage.
         taking: Taking(c) as Flat,
-        /// 15: the distance since the sample of each stage.
+        /// 15: distance since the sample of this stage.
         ways: [I(c.position); c.stages],
     }
 }

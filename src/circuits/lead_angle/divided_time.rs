@@ -7,7 +7,7 @@
 //! ```
 //!
 //! The text allows both (N=1に固定する場合はこのような論理回路13は不要; 予め分けたデータを供給). The supplier of the data must
-//! keep the taps within the history: beyond it, `enough` is never high.
+//! keep the taps within the history: `enough` is never high for a tap beyond it.
 //!
 //! Departure: a tap of 0 is no lead, whatever N comes with it.
 
@@ -61,14 +61,15 @@ impl DividedTime {
 signals! { for DividedTime as c;
     /// Input ports.
     pub struct In {
-        /// Δt in CKs where N is 1, or N above Δt/N.
+        /// Time data: Δt in CKs where N is fixed at 1; otherwise N in the upper bits and Δt/N in
+        /// the lower bits.
         pub lead_time: U(c.word()) as Hex,
     }
     /// Nets.
     pub struct Net {
-        /// N: 0 for no lead.
+        /// N; 0 for no lead.
         pub ratio: U(4),
-        /// Δt/N: CKs that the earlier sample is old; 0 for no lead.
+        /// Δt/N: age of the earlier sample in CKs; 0 for no lead.
         pub tap: U(c.tap()),
         /// N·tap: Δt in CKs.
         pub code: U(c.time()),
@@ -77,7 +78,7 @@ signals! { for DividedTime as c;
 
 impl Circuit for DividedTime {
     const NAME: &'static str = "divided_time";
-    const ABOUT: &'static str = "ratio N and tap from time data that hold them";
+    const ABOUT: &'static str = "ratio N and tap from time data that contain them";
     records!(In, Nothing, Net);
 
     fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {

@@ -6,13 +6,13 @@
 //!                    └────────────────┘
 //! ```
 //!
-//! A body that comes at a constant speed v goes d1 − d2 = v·Δt1 from the control signal to the
-//! target, and its overrun does not depend on the lead. So the right time is Δt1·d1/(d1 − d2), which
-//! is Δt1 + Δt1·d2/(d1 − d2): the division of the first order with another divisor.
+//! A body that arrives at a constant speed v moves d1 − d2 = v·Δt1 from the control signal to the
+//! target, and its overrun does not depend on the lead. So the right time is Δt1·d1/(d1 − d2),
+//! which is Δt1 + Δt1·d2/(d1 − d2): the division of the first order with another divisor.
 //!
-//! Departure: the text names an accurate function and gives none. Where the body is at the target
-//! or past it when the control signal comes, d1 − d2 says nothing of the speed. Then |d1| divides:
-//! the first order, which at least doubles the time.
+//! Departure: the text names an accurate function and gives none. Where the body has already
+//! reached the target when the control signal comes, d1 − d2 says nothing about the speed. Then the
+//! divisor is |d1|, as in the first order, which at least doubles the time.
 
 use crate::prelude::*;
 
@@ -27,24 +27,24 @@ pub struct ExactRelation {
 signals! { for ExactRelation as c;
     /// Input ports.
     pub struct In {
-        /// d1.
+        /// d1: distance since the control signal.
         pub overrun: I(c.position),
-        /// d2.
+        /// d2: distance past the target.
         pub error: I(c.position),
     }
     /// Nets.
     pub struct Net {
-        /// d1 − d2: the distance from the control signal to the target.
+        /// d1 − d2: distance from the control signal to the target.
         distance: I(c.position + 1),
         /// The target was ahead, in the direction of the overrun.
         ahead: Bit,
-        /// d1 − d2 of a target ahead, d1 otherwise.
+        /// d1 − d2 if the target was ahead, otherwise d1.
         way: I(c.position + 1),
-        /// Its amount.
+        /// Magnitude of `way`.
         amount: U(c.position + 1),
-        /// Divisor: |d1 − d2| of a target ahead, |d1| otherwise.
+        /// Divisor: |d1 − d2| if the target was ahead, otherwise |d1|.
         pub divide_by: U(c.position),
-        /// Half of it: the quotient is rounded to the nearest.
+        /// Half of the divisor, which rounds the quotient to the nearest.
         pub addend: U(c.position),
     }
 }

@@ -1,5 +1,5 @@
-//! Receiver of an absolute encoder's words: the place in a turn, by the encoder's own sampling clock.
-//! Part of position detector 10 of JPH0646367B2.
+//! Receiver of an absolute encoder's words: gives the place in a turn, with the encoder's own
+//! sampling clock. Part of position detector 10 of JPH0646367B2.
 //!
 //! ```text
 //!           ┌───────────────┐
@@ -9,12 +9,12 @@
 //!           └───────────────┘
 //! ```
 //!
-//! The encoder gives a new Gray word with each rise of `strobe`. Every wire goes through two
-//! flip-flops. The word is taken a tick after the rise was seen, when all of its wires have come
-//! through.
+//! The encoder outputs a new Gray word with each rising edge of `strobe`. Every wire goes through
+//! two flip-flops. The word is taken one tick after the edge was seen, when all of its wires have
+//! passed them.
 //!
-//! A turn of T counts has the T words in the middle of the code, (2^code − T)/2 on either side being
-//! unused: so where T is even its last word and its first differ in one bit too.
+//! A turn of T counts uses the T words in the middle of the code, and leaves (2^code − T)/2 words
+//! unused on either side. So for an even T, its last word and its first word differ in one bit too.
 
 use crate::prelude::*;
 
@@ -39,40 +39,40 @@ impl GrayReceiver {
 signals! { for GrayReceiver as c;
     /// Input ports.
     pub struct In {
-        /// The encoder's sampling clock, asynchronous; a new word comes with each rise. High and low
-        /// for a tick at least, four ticks from rise to rise.
+        /// Sampling clock of the encoder, asynchronous; a new word comes with each rising edge.
+        /// High and low for at least one tick; at least four ticks from edge to edge.
         pub strobe: Bit,
-        /// The encoder's word in Gray code, asynchronous.
+        /// Word of the encoder in Gray code, asynchronous.
         pub code: U(c.code) as Hex,
         /// T: counts of a turn; 0 for 2^code.
         pub turn: U(c.code),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// The last four levels of the strobe, the newest in bit 0, which is the flip-flop at the pin.
+        /// Last four samples of the strobe, the newest in bit 0, which is the flip-flop at the pin.
         sync_strobe: U(4) as Hex = 0,
-        /// The word's flip-flops at the pins.
+        /// Flip-flops of the word at the pins.
         pin_code: U(c.code) as Hex = 0,
-        /// The word, synchronised.
+        /// Synchronized word.
         sync_code: U(c.code) as Hex = 0,
     }
     /// Nets.
     pub struct Net {
         /// A word is taken.
         pub take: Bit,
-        /// Parities of 2, 4, … bits of it from each one up.
+        /// Bit i: parity of the word's bits from i up, of as many bits as the name says.
         parity: [U(c.code); c.parities()] as Elements(PARITIES),
-        /// Its number in the code: the parity of all of them.
+        /// Number of the word in the code; bit i is the parity of all bits from i up.
         number: U(c.code),
-        /// Counts of a turn, with room for all of them.
+        /// Counts of a turn, 2^code where `turn` is 0.
         counts: U(c.code + 1),
-        /// Words of the code that the turn has not.
+        /// Words of the code that the turn does not use.
         unused: U(c.code + 1),
-        /// The number of the turn's first word.
+        /// Number of the first word of the turn.
         first: U(c.code),
-        /// Its place in the turn; below the turn's first word a great number.
+        /// Place of the word in the turn; a large number for words below the first one.
         pub place: U(c.code + 1),
-        /// The turn has no such place.
+        /// The word is outside the turn.
         pub outside: Bit,
     }
 }

@@ -1,4 +1,4 @@
-//! Subtractor 15 and multiplier 16: the lead N·(Dx − Dx(−Δt/N)).
+//! Subtractor 15 and multiplier 16: compute the lead N·(Dx − Dx(−Δt/N)).
 //!
 //! ```text
 //!                 ┌──────┐
@@ -7,11 +7,11 @@
 //!                 └──────┘
 //! ```
 //!
-//! Words wrap, so the difference is right as long as the distance of a tap is below half the range
-//! of a position, and so is the prediction, wherever on the ring the lead ends.
+//! Words wrap. So the difference is right while the distance of a tap is below half the range of a
+//! position, and the prediction is right wherever on the ring it ends.
 //!
 //! With N fixed at 1 there is no multiplier (この場合は論理回路13と乗算器16は不要): the lead is the difference, or
-//! nothing.
+//! 0.
 
 use super::LeadProducts;
 use crate::prelude::*;
@@ -29,9 +29,9 @@ pub struct Lead {
 signals! { for (Lead, LeadProducts) as c;
     /// Input ports; also those of the [products](super::lead_products).
     pub struct In {
-        /// Dx: the present sample.
+        /// Dx: present sample.
         pub present: I(c.position),
-        /// Dx(−Δt/N): the earlier one.
+        /// Dx(−Δt/N): earlier sample.
         pub old: I(c.position),
         /// N, up to 10; 0 for no lead.
         pub ratio: U(4),
@@ -41,18 +41,18 @@ signals! { for (Lead, LeadProducts) as c;
 signals! { for Lead as c;
     /// Nets.
     pub struct Net {
-        /// N with a sign.
+        /// N as a signed word.
         factor: I(5),
-        /// 15: Δx, the distance travelled in the last Δt/N.
+        /// 15: Δx, the distance moved in the last Δt/N.
         pub difference: I(c.position) as Analog,
-        /// 16: N·Δx, the distance to be travelled in Δt at this speed.
+        /// 16: N·Δx, the distance that this speed covers in Δt.
         pub lead: I(c.position) as Analog,
     }
 }
 
 impl Circuit for Lead {
     const NAME: &'static str = "lead_arithmetic";
-    const ABOUT: &'static str = "the way of the last tap, N times";
+    const ABOUT: &'static str = "N times the distance of the last tap";
     records!(In, Nothing, Net);
 
     fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {

@@ -1,4 +1,4 @@
-//! The prediction without the subtractor 15: (N + 1)·Dx − N·Dx(−Δt/N).
+//! Prediction without the subtractor 15: (N + 1)·Dx − N·Dx(−Δt/N).
 //!
 //! ```text
 //!                 ┌───────────────┐
@@ -8,9 +8,8 @@
 //!                 └───────────────┘
 //! ```
 //!
-//! The text's alternative to 15 and 16, with a product of each sample; where N is fixed at 1 it is
-//! 2·Dx − Dx(−Δt), without a multiplier. Adder 17 is included: the output is Dx(+Δt), to which
-//! nothing more is added.
+//! The text's alternative to 15 and 16, with a product of each sample. Where N is fixed at 1 it is
+//! 2·Dx − Dx(−Δt), without a multiplier. Adder 17 is included: the output is Dx(+Δt).
 
 pub use super::lead::In;
 use crate::prelude::*;
@@ -34,7 +33,7 @@ signals! { for LeadProducts as c;
         present_product: I(c.position) as Analog,
         /// N·Dx(−Δt/N).
         old_product: I(c.position) as Analog,
-        /// Dx(+Δt).
+        /// Dx(+Δt): predicted position.
         pub predicted: I(c.position) as Analog,
     }
 }

@@ -1,5 +1,5 @@
-//! Phase counter: the carrier of a phase-shift transducer, and the place in a pitch by its
-//! secondary. Part of position detector 10 of JPH0646367B2.
+//! Phase counter: generates the carrier of a phase-shift transducer, and measures the place in a
+//! pitch by the phase of the secondary. Part of position detector 10 of JPH0646367B2.
 //!
 //! ```text
 //!             ┌───────────────┐
@@ -10,23 +10,23 @@
 //!             └───────────────┘
 //! ```
 //!
-//! Two primaries are excited by sine and cosine of `phase`, and the secondary gives
-//! sin(phase − place): it crosses zero upwards when the carrier has come to the place in the pitch.
-//! The phase of that tick is latched, and taken at the next 0 phase, as the text has it (1次コイルを励磁
-//! する基準交流信号の0位相毎に). A pitch has as many counts as the carrier has ticks.
+//! Two primaries are excited by sine and cosine of `phase`, and the secondary outputs sin(phase −
+//! place): it crosses zero upwards when the phase equals the place in the pitch. The phase of that
+//! tick is latched, and taken at the next 0 phase, as in the text (1次コイルを励磁する基準交流信号の0位相毎に). A pitch
+//! has as many counts as the carrier period has ticks.
 //!
-//! The secondary goes through two flip-flops, and the phase that a crossing is given is the one of two
-//! ticks ago. A crossing at 0 phase is of the period that begins with it.
+//! The secondary goes through two flip-flops, so a crossing gets the phase of two ticks ago. A
+//! crossing at 0 phase belongs to the period that begins with it.
 //!
-//! Departures: a moving body shifts the secondary's frequency, so that around the end of a pitch a
-//! period of the carrier has none or two crossings, however slow the body is. Therefore the
-//! secondary's own period is monitored: a crossing within 3/4 of the carrier's period since the
-//! one before, and none within 5/4, are faults, and such a sample is not taken for a place.
+//! Departures: a moving body shifts the secondary's frequency, so near the end of a pitch a carrier
+//! period can have no crossing or two, however slow the body is. Therefore the period of the
+//! secondary is monitored. A crossing less than 3/4 of the carrier period after the last one is a
+//! fault, and so is none within 5/4. Such a sample is not taken as a place.
 
 use crate::prelude::*;
 
-/// Phase counter. A crossing at the pin in tick n is latched in n + 3; a period's place is taken two
-/// ticks after 0 phase.
+/// Phase counter. A crossing at the pin in tick n is latched in tick n + 3; the place of a period
+/// is taken two ticks after 0 phase.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PhaseCounter {
@@ -40,38 +40,38 @@ const SEEN: u64 = 2;
 signals! { for PhaseCounter as c;
     /// Input ports.
     pub struct In {
-        /// The secondary is above zero: a comparator with hysteresis, asynchronous.
+        /// Secondary above zero, from a comparator with hysteresis; asynchronous.
         pub secondary: Bit,
-        /// M: ticks of the carrier's period, and counts of a pitch; 0 for 2^phase. 4 at least.
+        /// M: ticks of the carrier period, and counts of a pitch; at least 4, or 0 for 2^phase.
         pub modulus: U(c.phase),
     }
     /// Flip-flops.
     pub struct Reg {
         /// Phase of the carrier, for the D/A converters of the primaries.
         pub phase: U(c.phase) as Analog = 0,
-        /// The last three levels of the secondary, the newest in bit 0, which is the flip-flop at the
-        /// pin. High at power-on, so that a crossing has a low level before it.
+        /// Last three samples of the secondary, the newest in bit 0, which is the flip-flop at the
+        /// pin. High at power-on, so that the first crossing has a low level before it.
         sync_secondary: U(3) as Hex = 7,
-        /// The place in the pitch: the phase of the last crossing.
+        /// Place in the pitch: phase of the last crossing.
         pub place: U(c.phase) as Analog = 0,
-        /// Ticks since the last crossing; stops where it is overdue.
+        /// Ticks since the last crossing; stops when the crossing is overdue.
         elapsed: U(c.phase + 1) as Analog = 0,
-        /// There was a crossing since power-on.
+        /// A crossing has come since power-on.
         crossed: Bit,
-        /// A crossing since the last 0 phase was too soon, or there was none for too long.
+        /// Since the last 0 phase, a crossing came too early or was overdue.
         pub fault: Bit,
     }
     /// Nets.
     pub struct Net {
-        /// Ticks of the carrier, with room for all of them.
+        /// Ticks of the carrier period, 2^phase where `modulus` is 0.
         counts: U(c.phase + 1),
-        /// A quarter of them.
+        /// Quarter of the carrier period, in ticks.
         quarter: U(c.phase + 1),
-        /// `phase + 1`: ticks of the period that are over after this one.
+        /// `phase + 1`: ticks of the period, including this one.
         next_phase: U(c.phase + 1),
-        /// The phase of the carrier when the observed level was at the pin.
+        /// Phase of the carrier when the present level was at the pin.
         seen_phase: U(c.phase),
-        /// The carrier is in the first half of its period: a square wave in phase with its sine.
+        /// Square wave in phase with the carrier's sine: high in the first half of the period.
         pub square_wave: Bit,
         /// The secondary crosses zero upwards.
         crossing: Bit,
@@ -79,7 +79,7 @@ signals! { for PhaseCounter as c;
         early: Bit,
         /// The crossing is overdue.
         late: Bit,
-        /// The period ends.
+        /// The period ends, for the levels that are seen now.
         zero: Bit,
         /// A place is taken.
         pub take: Bit,
@@ -88,7 +88,7 @@ signals! { for PhaseCounter as c;
 
 impl Circuit for PhaseCounter {
     const NAME: &'static str = "phase_counter";
-    const ABOUT: &'static str = "place in a pitch from the phase of a secondary, and its carrier";
+    const ABOUT: &'static str = "place in a pitch from the phase of a secondary, and the carrier";
     records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {

@@ -1,5 +1,5 @@
-//! Position detector 10 as a phase-shift detector: the phase of a secondary in a pitch, taken at each 0
-//! phase of its carrier and continued beyond the pitch.
+//! Position detector 10 as a phase-shift detector: the phase of the secondary in a pitch is taken
+//! at each 0 phase of the carrier, and the position is continued over the pitches.
 //!
 //! ```text
 //!             ┌───────────── phase detector ─────────────┐
@@ -13,15 +13,15 @@
 //! ```
 //!
 //! This is the detector that the text prefers (位相シフト方式). `sample` is CK of the memory 11: the
-//! sampling clock of the detector, a pulse for each period of the reference signal.
+//! sampling clock of the detector, one pulse per period of the reference signal.
 
 use super::{PhaseCounter, Unwrapper, phase_counter, unwrapper};
 use crate::prelude::*;
 
 /// Phase-shift detector, with a position that continues over the pitches.
 ///
-/// A place is as old as its crossing, up to a period of the secondary; from 0 phase to `position` it
-/// takes three ticks.
+/// A place is as old as its crossing, up to one period of the secondary. From 0 phase to `position`
+/// it takes three ticks.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PhaseDetector {
@@ -34,11 +34,11 @@ pub struct PhaseDetector {
 signals! { for PhaseDetector as c;
     /// Input ports.
     pub struct In {
-        /// The secondary is above zero: a comparator with hysteresis, asynchronous.
+        /// Secondary above zero, from a comparator with hysteresis; asynchronous.
         pub secondary: Bit,
-        /// M: ticks of the carrier's period, and counts of a pitch; 0 for 2^phase. 4 at least.
+        /// M: ticks of the carrier period, and counts of a pitch; at least 4, or 0 for 2^phase.
         pub modulus: U(c.phase),
-        /// The next place is taken for the position, as after power-on; `lost` off.
+        /// The next place becomes the position, as after power-on; clears `lost`.
         pub clear: Bit,
     }
     /// The circuits inside.
@@ -52,13 +52,13 @@ signals! { for PhaseDetector as c;
     pub struct Net {
         /// Phase of the carrier, for the D/A converters of the primaries.
         pub phase: U(c.phase) as Analog,
-        /// The carrier is in the first half of its period: a square wave in phase with its sine.
+        /// Square wave in phase with the carrier's sine: high in the first half of the period.
         pub square_wave: Bit,
-        /// A sample is new in this tick: CK.
+        /// High for one tick: `position` is a new sample. CK of the memory 11.
         pub sample: Bit,
-        /// Dx: place in the pitch, and the pitches since; wraps.
+        /// Dx: place in the pitch plus the counts of whole pitches; wraps.
         pub position: I(c.position) as Analog,
-        /// A crossing came too soon or not in time, or the body was too fast, since `clear`.
+        /// A crossing came too early or was overdue, or the body was too fast; cleared by `clear`.
         pub lost: Bit,
     }
 }

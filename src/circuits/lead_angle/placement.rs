@@ -1,4 +1,4 @@
-//! Adder 17 and subtractor 20: where the lead is put before position and target are compared.
+//! Adder 17 and subtractor 20: apply the lead before position and target are compared.
 //!
 //! ```text
 //!                            ┌───────────┐
@@ -7,10 +7,10 @@
 //! ```
 //!
 //! The text allows three placements: the position is advanced (Fig. 1), the target is advanced
-//! (Fig. 5), or each by a half. All three have the same difference, so they fire in the same tick.
+//! (Fig. 5), or each by one half. All three give the same difference, so they fire in the same
+//! tick.
 //!
-//! Departure: the text says of the third that half the lead is subtracted from Dx; it has to be
-//! added.
+//! Departure: for the third, the text subtracts half the lead from Dx; it has to be added.
 
 use super::lead_source::Lead;
 use crate::prelude::*;
@@ -46,23 +46,23 @@ signals! { for LeadPlacement as c;
         pub position: I(c.position),
         /// Sx.
         pub target: I(c.position),
-        /// N·Δx.
+        /// N·Δx: lead.
         pub lead: I(c.position),
     }
     /// Nets.
     pub struct Net {
-        /// The part of the lead that is added to the position.
+        /// Part of the lead that is added to the position.
         advance: I(c.position),
-        /// Dx, plus its share of the lead.
+        /// Dx plus its share of the lead.
         pub compared_position: I(c.position) as Analog,
-        /// Sx, less its share of the lead: Sx′.
+        /// Sx′: Sx minus its share of the lead.
         pub compared_target: I(c.position) as Analog,
     }
 }
 
 impl Circuit for LeadPlacement {
     const NAME: &'static str = "placement";
-    const ABOUT: &'static str = "puts the lead on the position, on the target, or on both";
+    const ABOUT: &'static str = "applies the lead to the position, to the target, or to both";
     records!(In, Nothing, Net);
 
     fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {

@@ -7,12 +7,12 @@
 //!                          └──────────────────┘
 //! ```
 //!
-//! At each CK a sample enters stage 0 and all others move on by a stage: stage k holds the
-//! sample that is k CKs older than the present one. With the sample goes a pair to the outputs, the
-//! sample itself and the one a tap of CKs before it, together with the ratio that belongs to it.
+//! At each CK a sample enters stage 0, and all others move on by one stage: stage k holds the
+//! sample that is k CKs older than the present one. At the same CK a pair appears at the outputs:
+//! the sample itself and the one `tap` CKs older, together with the ratio that belongs to it.
 //!
-//! Departures: the samples since `restart` are counted, since a history of zeros predicts twice
-//! the position. Sample and earlier sample change at the same edge, so that they always belong
+//! Departures: the samples since `restart` are counted, because a history of zeros would predict
+//! twice the position. Both samples of a pair change at the same edge, so they always belong
 //! together, whatever the rate of CK.
 
 use super::codes::tap_width;
@@ -40,22 +40,22 @@ signals! { for (PositionHistory, RamHistory, DifferenceHistory) as c;
         pub ck: Bit,
         /// Discards the samples taken so far.
         pub restart: Bit,
-        /// The position.
+        /// Position, in counts.
         pub position: I(c.position),
-        /// Age in CKs of the other sample of the pair, 1 to K; 0 for none.
+        /// Age of the earlier sample of the pair in CKs, 1 to K; 0 for none.
         pub tap: U(tap_width(c.stages)),
-        /// N, which goes with the pair.
+        /// N, which is passed on with the pair.
         pub ratio: U(4),
     }
     /// Pair of samples at the outputs; also of the [RAM form](super::ram_history).
     pub struct Pair {
-        /// Dx: the present sample.
+        /// Dx: present sample.
         pub present: I(c.position) as Analog,
-        /// Dx(−Δt/N): the sample a tap of CKs before it.
+        /// Dx(−Δt/N): sample `tap` CKs older.
         pub old: I(c.position) as Analog,
-        /// N of this pair.
+        /// N of the pair.
         pub pair_ratio: U(4),
-        /// `old` was sampled since the last restart, or none is wanted.
+        /// `old` was sampled since the last restart, or `tap` was 0.
         pub enough: Bit,
         /// The pair is new in this tick.
         pub fresh: Bit,
@@ -64,11 +64,11 @@ signals! { for (PositionHistory, RamHistory, DifferenceHistory) as c;
     }
     /// Nets; also those of the [RAM form](super::ram_history).
     pub struct Net {
-        /// The stage that the tap names before the shift.
+        /// Stage to read, before the shift.
         pub(super) index: U(tap_width(c.stages)),
-        /// There is such a stage, and a sample is taken.
+        /// `old` is loaded: a sample is taken, and `index` is a stage of the history.
         pub(super) load: Bit,
-        /// There are samples for this tap.
+        /// The history holds a sample for this tap.
         covered: Bit,
     }
 }
@@ -78,7 +78,7 @@ signals! { for PositionHistory as c;
     pub struct Reg {
         /// Pair at the outputs.
         pub pair: Pair(c),
-        /// 11: stage k holds the sample k CKs before the present one.
+        /// 11: stage k holds the sample k CKs older than the present one.
         stages: Shift(c.stages, c.position),
     }
 }

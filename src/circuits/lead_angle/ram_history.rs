@@ -1,4 +1,4 @@
-//! Position history as a RAM, the other form of the memory 11 in the text.
+//! Position history as a RAM: the other form of the memory 11 in the text.
 //!
 //! ```text
 //!                          ┌─────────────┐
@@ -31,7 +31,7 @@ signals! { for RamHistory as c;
     pub struct Reg {
         /// Pair at the outputs.
         pub pair: Pair(c),
-        /// Write address of the next sample; the sample k CKs before it is k addresses below.
+        /// Write address of the next sample; the sample k CKs before it is at `address` − k.
         address: U(tap_width(c.stages)) as Hex,
         /// 11: the samples.
         samples: Ram(tap_width(c.stages), c.position),
@@ -40,7 +40,7 @@ signals! { for RamHistory as c;
 
 impl Circuit for RamHistory {
     const NAME: &'static str = "ram_history";
-    const ABOUT: &'static str = "position samples in a RAM, read a tap of samples back";
+    const ABOUT: &'static str = "position samples in a RAM, read `tap` samples back";
     records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {

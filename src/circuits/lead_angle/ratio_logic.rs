@@ -1,4 +1,4 @@
-//! Logic circuit 13: from the time Δt to the ratio N and the tap Δt/N.
+//! Logic circuit 13: computes the ratio N and the tap Δt/N from the time Δt.
 //!
 //! ```text
 //!               ┌─────────────┐
@@ -11,9 +11,9 @@
 //! N, and the smallest N is taken: with K = 199 these are 1–199, 200–398 by 2, 400–995 by 5 and
 //! 1000–1990 by 10, the 519 codes of the text's table.
 //!
-//! Departures: a time between two codes gives the nearest code of its range and `on_grid` low, for
-//! whoever has to refuse it or to round to it. A time of 0 is on the grid, with a ratio of 0: no
-//! lead.
+//! Departures: a time between two codes gives the nearest code of its range, with `on_grid` low. So
+//! the user can refuse the time or use the rounded one. A time of 0 is on the grid, with a ratio of
+//! 0: no lead.
 
 use super::codes;
 use crate::prelude::*;
@@ -54,7 +54,7 @@ signals! { for RatioLogic as c;
     }
     /// Nets.
     pub struct Net {
-        /// The time, with room for the sums.
+        /// Lead time, extended for the sums.
         wide: U(14),
         /// The time is beyond the codes of ratio 1.
         two: Bit,
@@ -62,21 +62,21 @@ signals! { for RatioLogic as c;
         five: Bit,
         /// The time is beyond the codes of ratio 5.
         ten: Bit,
-        /// The time and half of its ratio.
+        /// Time plus half of its ratio.
         rounded: U(14),
-        /// `rounded`, or half of it where the ratio is even.
+        /// `rounded`, or half of `rounded` where the ratio is even.
         halved: U(14),
         /// `halved` times 2^17/5.
         product: U(29),
         /// A fifth of `halved`.
         fifth: U(14),
-        /// The time divided by its ratio, to the nearest.
+        /// Time divided by its ratio, rounded to the nearest.
         quotient: U(14),
         /// N: 1, 2, 5 or 10; 0 for no lead.
         pub ratio: U(4),
-        /// Δt/N: CKs that the earlier sample is old; 0 for no lead.
+        /// Δt/N: age of the earlier sample in CKs; 0 for no lead.
         pub tap: U(c.tap()),
-        /// N·tap: the nearest code of the range that the time is in.
+        /// N·tap in CKs: nearest code of the range that the time is in.
         pub code: U(c.time()),
         /// The time is a code.
         pub on_grid: Bit,
@@ -85,7 +85,7 @@ signals! { for RatioLogic as c;
 
 impl Circuit for RatioLogic {
     const NAME: &'static str = "ratio_logic";
-    const ABOUT: &'static str = "from the lead time to the ratio N and the tap of the history";
+    const ABOUT: &'static str = "ratio N and tap of the history from the lead time";
     records!(In, Nothing, Net);
 
     fn objection(&self) -> Option<String> {

@@ -1,4 +1,4 @@
-//! Second order of the correction 28: has |Δtd| divided a second time.
+//! Second order of the correction 28: divides |Δtd| a second time.
 //!
 //! ```text
 //!                                  ┌────────────┐
@@ -8,12 +8,13 @@
 //!                                  └────────────┘
 //! ```
 //!
-//! For a body that arrives at a constant speed, the error d2 corresponds to Δtd = Δt·d2/d1, with
-//! the Δt that would have been right. The first order takes Δt1 for it. Here that is the first
-//! division, and the second uses its result: Δtd = (Δt1 + Δt1·d2/d1)·d2/d1.
+//! For a body that arrives at a constant speed, the error d2 corresponds to Δtd = Δt·d2/d1, where
+//! Δt is the time that would have been right. The first order uses Δt1 in its place. Here that is
+//! the first division, and the second division uses its result: Δtd = (Δt1 + Δt1·d2/d1)·d2/d1.
 //!
-//! Departure: the text names a quadratic function and gives none. Where |d2| is not below |d1| the
-//! series that this begins does not converge, so the first division is kept: the first order.
+//! Departure: the text names a quadratic function and gives none. Where |d2| is not below |d1|, the
+//! series that this begins does not converge. There the result of the first division is kept: the
+//! first order.
 
 use crate::prelude::*;
 
@@ -25,8 +26,8 @@ const SECOND: u64 = 2;
 
 /// Refinement of a quotient by a second division.
 ///
-/// A division begins in the tick of `start`, the second in that of `divider_done`; `done` is high in
-/// the tick after the last one's `divider_done`.
+/// The first division begins in the tick of `start`, the second in that of `divider_done`. `done`
+/// is high in the tick after the last `divider_done`.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Refinement {
@@ -39,19 +40,19 @@ pub struct Refinement {
 signals! { for Refinement as c;
     /// Input ports.
     pub struct In {
-        /// Starts a correction, unless one is running.
+        /// Starts a correction; ignored while one is running.
         pub start: Bit,
-        /// |d2|; taken with `start`.
+        /// |d2|; sampled with `start`.
         pub multiplicand: U(c.position),
         /// Δt1; constant from `start` to `done`.
         pub multiplier: U(c.time),
-        /// |d1|; taken with `start`.
+        /// |d1|; sampled with `start`.
         pub divisor: U(c.position),
-        /// Δtd is negative; from the tick after `start` on.
+        /// Δtd is negative; valid from the tick after `start`.
         pub negative: Bit,
-        /// The divider has its result.
+        /// The divider has a result.
         pub divider_done: Bit,
-        /// The divider's result, which is at most Δt1 where |d2| is below |d1|.
+        /// Quotient from the divider; at most Δt1 where |d2| is below |d1|.
         pub quotient: U(c.time),
     }
     /// Flip-flops.
@@ -62,20 +63,20 @@ signals! { for Refinement as c;
         error_amount: U(c.position) = 0,
         /// |d1| of the correction.
         overrun_amount: U(c.position) = 0,
-        /// |Δtd| is valid at the divider; one tick.
+        /// High for one tick: |Δtd| is valid at the divider.
         pub done: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A start is taken.
+        /// A start is accepted.
         take: Bit,
         /// |d2| is below |d1|.
         converges: Bit,
-        /// The first division is over, and the second begins.
+        /// The first division ends, and the second begins.
         refine: Bit,
-        /// The last division is over.
+        /// The last division ends.
         over: Bit,
-        /// Δt1 and Δtd of the first order.
+        /// Δt1 plus the Δtd of the first order.
         first_order: U(c.time + 1),
         /// Starts the divider.
         pub divide: Bit,
@@ -85,14 +86,14 @@ signals! { for Refinement as c;
         pub second_factor: U(c.time + 1),
         /// Divisor: |d1|.
         pub divide_by: U(c.position),
-        /// Half of |d1|: the quotient is rounded to the nearest.
+        /// Half of the divisor, which rounds the quotient to the nearest.
         pub addend: U(c.position),
     }
 }
 
 impl Circuit for Refinement {
     const NAME: &'static str = "refinement";
-    const ABOUT: &'static str = "has a correction divided a second time, for the second order";
+    const ABOUT: &'static str = "divides a correction a second time, for the second order";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

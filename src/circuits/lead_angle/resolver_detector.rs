@@ -1,5 +1,5 @@
-//! Position detector 10 as a resolver in amplitude mode: the angle in a pitch, in counts, at each peak of
-//! the carrier that is sampled, continued beyond the pitch.
+//! Position detector 10 as a resolver in amplitude mode: the angle in a pitch is sampled at peaks
+//! of the carrier and converted to counts, and the position is continued over the pitches.
 //!
 //! ```text
 //!           ┌──────────────────── resolver detector ────────────────────┐
@@ -11,9 +11,9 @@
 //!           └───────────────────────────────────────────────────────────┘
 //! ```
 //!
-//! The text lists it as a resolver and the means that make digital data of its signals. `sample` is CK
-//! of the memory 11, a conversion that is done. The scaler makes counts of the angle while the CORDIC
-//! turns, since a pitch has as many counts as the machine wants and the angle is a binary part of it.
+//! The text lists a resolver with the means that make digital data of its signals. `sample` is CK
+//! of the memory 11: a conversion is done. A pitch can have any number of counts, but the angle is
+//! a binary fraction of it. So the scaler converts the angle to counts, while the CORDIC rotates.
 
 use super::{TrackingConverter, Unwrapper, tracking_converter, unwrapper};
 use crate::circuits::blocks::{Scaler, scaler};
@@ -21,7 +21,7 @@ use crate::prelude::*;
 
 /// Resolver detector, with a position that continues over the pitches.
 ///
-/// From `strobe` to `position` it takes A + 2 ticks, A being the width of an angle.
+/// From `strobe` to `position` it takes A + 2 ticks, where A is the width of an angle.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ResolverDetector {
@@ -41,22 +41,22 @@ impl ResolverDetector {
 signals! { for ResolverDetector as c;
     /// Input ports.
     pub struct In {
-        /// The words are new, A + 2 ticks after those before at least.
+        /// `sine` and `cosine` are new; at least A + 2 ticks after the strobe before.
         pub strobe: Bit,
-        /// The sine winding at a peak of the carrier.
+        /// Sine winding, sampled at a peak of the carrier.
         pub sine: I(c.converter.converter) as Analog,
-        /// The cosine winding.
+        /// Cosine winding, sampled at a peak of the carrier.
         pub cosine: I(c.converter.converter) as Analog,
         /// M: counts of a pitch; 0 for 2^A.
         pub modulus: U(c.angle()),
-        /// The next place is taken for the position, as after power-on; `lost` off.
+        /// The next place becomes the position, as after power-on; clears `lost`.
         pub clear: Bit,
     }
     /// The circuits inside.
     pub struct Parts {
-        /// The angle in a pitch.
+        /// Converter for the angle in a pitch.
         pub converter: Part<TrackingConverter>(c.converter.clone()),
-        /// The angle in counts.
+        /// Scaler from angle to counts.
         pub scaler: Part<Scaler>(Scaler { gain: c.angle(), value: c.angle() + 2 }),
         /// Position, continued over the pitches.
         pub unwrapper: Part<Unwrapper>(Unwrapper { place: c.angle(), position: c.position }),
@@ -65,11 +65,11 @@ signals! { for ResolverDetector as c;
     pub struct Net {
         /// Change of the angle per conversion, in units of 2^−(A + 2·G) pitch.
         pub speed: I(c.converter.tracking.phase()) as Analog,
-        /// A sample is new in this tick: CK.
+        /// High for one tick: `position` is a new sample. CK of the memory 11.
         pub sample: Bit,
-        /// Dx: place in the pitch, rounded down, and the pitches since; wraps.
+        /// Dx: place in the pitch, rounded down, plus the counts of whole pitches; wraps.
         pub position: I(c.position) as Analog,
-        /// The signal was too small, or the body too fast, since `clear`.
+        /// The signal was too small, or the body too fast; cleared by `clear`.
         pub lost: Bit,
     }
 }

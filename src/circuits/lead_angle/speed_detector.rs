@@ -1,4 +1,4 @@
-//! Speed detector 2 of Fig. 7: the distance travelled in a gate.
+//! Speed detector 2 of Fig. 7: measures the distance moved in a gate.
 //!
 //! ```text
 //!                          ┌────────────────┐
@@ -7,8 +7,8 @@
 //!                          └────────────────┘
 //! ```
 //!
-//! The speed is the distance travelled in a gate of `gate` CKs, and is held until the next gate is
-//! over: on average it is a whole gate old.
+//! The speed is the distance moved in a gate of `gate` CKs. It is held until the next gate ends, so
+//! on average it is a whole gate old.
 
 use super::TableLead;
 use crate::prelude::*;
@@ -30,9 +30,9 @@ signals! { for (SpeedDetector, TableLead) as c;
         pub ck: Bit,
         /// Discards the samples taken so far.
         pub restart: Bit,
-        /// The position.
+        /// Position, in counts.
         pub position: I(c.position),
-        /// CKs of a gate; 0 counts as 1.
+        /// Length of a gate in CKs; 0 counts as 1.
         pub gate: U(c.gate),
     }
 }
@@ -40,28 +40,28 @@ signals! { for (SpeedDetector, TableLead) as c;
 signals! { for SpeedDetector as c;
     /// Flip-flops.
     pub struct Reg {
-        /// Dx: the present sample.
+        /// Dx: present sample.
         pub present: I(c.position) as Analog,
         /// The sample is new in this tick.
         pub fresh: Bit,
-        /// A whole gate was measured since the last restart.
+        /// A whole gate has been measured since the last restart.
         pub enough: Bit,
-        /// CKs of the gate that are over.
+        /// CKs since the gate began.
         count: U(c.gate),
-        /// A sample began the gate.
+        /// A gate has begun since the last restart.
         begun: Bit,
-        /// The sample that the gate began with.
+        /// Sample with which the gate began.
         gate_position: I(c.position),
-        /// ν: counts of the last gate.
+        /// ν: distance of the last gate, in counts.
         pub speed: I(c.position) as Analog,
     }
     /// Nets.
     pub struct Net {
-        /// CKs of the gate with this one.
+        /// CKs of the gate, including this one.
         next_count: U(c.gate),
         /// The gate ends with this sample.
         pub over: Bit,
-        /// Distance travelled in the gate that ends: ν from the next tick on.
+        /// Distance of the gate that ends; it is ν from the next tick on.
         pub way: I(c.position),
         /// A gate begins with this sample.
         begins: Bit,
@@ -70,7 +70,7 @@ signals! { for SpeedDetector as c;
 
 impl Circuit for SpeedDetector {
     const NAME: &'static str = "speed_detector";
-    const ABOUT: &'static str = "measures the speed as the way of a gate";
+    const ABOUT: &'static str = "measures the speed as the distance moved in a gate";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

@@ -1,4 +1,4 @@
-//! The conventional lead of Fig. 7: speed detector 2, and lead angle calculation 1 as a product.
+//! Conventional lead of Fig. 7: speed detector 2, and lead angle calculation 1 as a product.
 //!
 //! ```text
 //!                          ┌────────────┐
@@ -30,33 +30,33 @@ signals! { for SpeedLead as c;
         pub ck: Bit,
         /// Discards the samples taken so far.
         pub restart: Bit,
-        /// The position.
+        /// Position, in counts.
         pub position: I(c.position),
-        /// a: lead time in gates, in 1/256 of a gate.
+        /// a: lead time in units of 1/256 gate.
         pub lead_parameter: U(14),
-        /// CKs of a gate; 0 counts as 1.
+        /// Length of a gate in CKs; 0 counts as 1.
         pub gate: U(c.gate),
     }
     /// The circuit inside.
     pub struct Parts {
-        /// 2.
+        /// Speed detector 2.
         pub detector: Part<SpeedDetector>(SpeedDetector { position: c.position, gate: c.gate }),
     }
     /// Nets.
     pub struct Net {
-        /// Dx: the present sample.
+        /// Dx: present sample.
         pub present: I(c.position) as Analog,
         /// The sample is new in this tick.
         pub fresh: Bit,
-        /// A whole gate was measured since the last restart.
+        /// A whole gate has been measured since the last restart.
         pub enough: Bit,
-        /// ν: counts of the last gate.
+        /// ν: distance of the last gate, in counts.
         pub speed: I(c.position) as Analog,
-        /// a with a sign.
+        /// a as a signed word.
         factor: I(15),
-        /// ν·a in 1/256 of a count.
+        /// ν·a, in units of 1/256 count.
         product: I(64),
-        /// 1: θa.
+        /// 1: lead angle θa, in counts.
         pub lead: I(c.position) as Analog,
     }
 }

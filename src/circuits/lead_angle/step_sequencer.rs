@@ -1,4 +1,4 @@
-//! Step sequencer: runs the positioning steps over and over. The text's external sequencer that
+//! Step sequencer: runs the positioning steps again and again. The text's external sequencer, which
 //! gives the step number.
 //!
 //! ```text
@@ -11,21 +11,20 @@
 //!                            └────────────────┘
 //! ```
 //!
-//! A step: *load* its target and its time, *arm* the comparator until a sample gives the
-//! direction, *move* until the control signal, *brake* until the positioning is complete,
-//! *correct* the time, *rest*. Then the next step, from step 0 again after the last, as long as
-//! `run` is high.
+//! A step: *load* its target and its time, *arm* the comparator until a sample gives the direction,
+//! *move* until the control signal, *brake* until the positioning is complete, *correct* the time,
+//! *rest*. The next step follows, step 0 after the last, as long as `run` is high.
 //!
-//! With `passing` the control signal stops nothing: the motor is on from the first *move* until the
-//! last step is over, and *brake* waits for the operation that the signal is for. Where `passing`
-//! goes meanwhile, the signal stops the body.
+//! With `passing` the control signal does not stop the body. The motor is on from the first *move*
+//! until the last step is over, and *brake* waits for the operation that the signal starts. If
+//! `passing` falls meanwhile, the signal stops the body.
 //!
-//! `halt` during *move* gives the control signal by hand; in either case nothing is learned.
+//! `halt` during *move* requests the control signal. In either case nothing is learned.
 
 use crate::prelude::*;
 
-/// Step sequencer. `load` shows in the tick after `run`, `drive` in the tick after the first sample
-/// from two ticks after `run` on; it goes in the tick after `control` came.
+/// Step sequencer. `load` is high in the tick after `run`. `drive` rises in the tick after the
+/// first sample that comes two ticks after `run` or later, and falls in the tick after `control`.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StepSequencer {
@@ -50,17 +49,17 @@ const REST: u64 = 6;
 signals! { for StepSequencer as c;
     /// Input ports.
     pub struct In {
-        /// Steps run one after the other; when it goes low the running one is the last.
+        /// Runs the steps one after the other; when it falls, the running step is the last.
         pub run: Bit,
         /// Ends the move of this step immediately.
         pub halt: Bit,
-        /// The step after which step 0 comes.
+        /// Number of the last step; step 0 follows it.
         pub last_step: U(c.step),
         /// Dx.
         pub position: I(c.position),
-        /// Sx, there from the tick after `load`.
+        /// Sx; valid from the tick after `load`.
         pub target: I(c.position),
-        /// The control signal.
+        /// Control signal.
         pub control: Bit,
         /// The positioning is complete.
         pub complete: Bit,
@@ -70,61 +69,61 @@ signals! { for StepSequencer as c;
         pub corrected: Bit,
         /// CK.
         pub ck: Bit,
-        /// The body does not stop: the motor stays on from step to step.
+        /// High: the body does not stop, and the motor stays on from step to step.
         pub passing: Bit,
-        /// CKs between two steps.
+        /// Pause between two steps, in CKs.
         pub rest: U(c.rest),
     }
     /// Flip-flops.
     pub struct Reg {
         /// State of the sequence.
         state: U(3) as States(STATES) = 0,
-        /// CKs of rest.
+        /// CKs since the rest began.
         count: U(c.rest) = 0,
-        /// The step that runs, or is next.
+        /// Number of the running step, or of the next one.
         pub step: U(c.step) = 0,
-        /// The step's target and time are read; one tick.
+        /// High for one tick: target and time of the step are read.
         pub load: Bit = 0,
-        /// The comparator is reset, until a sample is ready.
+        /// Resets the comparator, until a sample is ready.
         pub arm: Bit = 0,
         /// The motor is on.
         pub drive: Bit = 0,
-        /// The motor turns downwards.
+        /// Direction of the motor; high counts down.
         pub reverse: Bit = 0,
-        /// Requests the control signal; one tick.
+        /// High for one tick: requests the control signal.
         pub halting: Bit = 0,
         /// The body is being stopped, or the effect of the control signal is awaited.
         pub braking: Bit = 0,
-        /// The control signal was requested in this step, or stops the body instead of an
-        /// operation.
+        /// The control signal of this step was requested by `halt`, or stops the body instead of
+        /// starting an operation.
         pub missed: Bit = 0,
-        /// A step runs.
+        /// A step is running.
         pub busy: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// Distance to the target, the short way round the ring.
+        /// Distance to the target, the shorter way round the ring.
         way: I(c.position),
-        /// The state is over with this tick, and the one after it comes.
+        /// The state ends with this tick, and the next state follows.
         goes_on: Bit,
-        /// A halt is taken.
+        /// A halt is accepted.
         halts: Bit,
-        /// `passing` goes while an operation is awaited: the body is stopped instead.
+        /// `passing` falls while an operation is awaited: the body is stopped instead.
         stopped: Bit,
-        /// The rest is over with this tick.
+        /// The rest ends with this tick.
         rested: Bit,
-        /// The state of the next tick.
+        /// State of the next tick.
         after: U(3) as States(STATES),
         /// The state of the next tick is not idle.
         works: Bit,
-        /// The step of the next tick.
+        /// `step` of the next tick.
         next_step: U(c.step),
     }
 }
 
 impl Circuit for StepSequencer {
     const NAME: &'static str = "step_sequencer";
-    const ABOUT: &'static str = "runs the positioning steps over and over";
+    const ABOUT: &'static str = "runs the positioning steps again and again";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

@@ -1,4 +1,4 @@
-//! Error 27, position register 30 and overrun 31: what a positioning tells of its lead time.
+//! Error 27, position register 30 and overrun 31: the distances from which a lead time is learned.
 //!
 //! ```text
 //!                       ┌────────────┐
@@ -8,10 +8,11 @@
 //! ```
 //!
 //! `overrun` (d1) is the distance since the control signal, `error` (d2) the distance past the
-//! target; both are positive upwards. They are used when the positioning is complete.
+//! target. Both are positive upwards. They are used when the positioning is complete.
 //!
-//! Departure: the text's error is Sx − Dx. With it learning goes the wrong way: the relative error
-//! r of a time becomes r² where it should become (1 − r)². That is the variant [`Sign::Literal`].
+//! Departure: the text's error is Sx − Dx. With that sign, learning goes the wrong way: the
+//! relative error r of a time becomes r² where it should become (1 − r)². That is the variant
+//! [`Sign::Literal`].
 
 use crate::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -40,7 +41,7 @@ pub struct StopError {
 signals! { for StopError as c;
     /// Input ports.
     pub struct In {
-        /// The control signal begins.
+        /// High for one tick: the control signal begins.
         pub fire: Bit,
         /// Dx.
         pub position: I(c.position),
@@ -49,21 +50,21 @@ signals! { for StopError as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// 30: the position when the control signal began.
+        /// 30: position at the start of the control signal.
         trigger_position: I(c.position) as Analog,
     }
     /// Nets.
     pub struct Net {
-        /// 31: d1, the distance since the control signal.
+        /// 31: d1, distance since the control signal.
         pub overrun: I(c.position),
-        /// 27: d2, the distance past the target.
+        /// 27: d2, distance past the target.
         pub error: I(c.position),
     }
 }
 
 impl Circuit for StopError {
     const NAME: &'static str = "stop_error";
-    const ABOUT: &'static str = "overrun since the control signal, and way past the target";
+    const ABOUT: &'static str = "overrun since the control signal, and distance past the target";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

@@ -1,5 +1,5 @@
-//! The conventional lead of Fig. 7 with its calculation 1 as a memory: the lead of each speed, read by
-//! the speed.
+//! Conventional lead of Fig. 7 with its calculation 1 as a memory: the lead of each speed is read
+//! by the speed.
 //!
 //! ```text
 //!                          ┌────────────┐
@@ -8,12 +8,12 @@
 //!                          └────────────┘
 //! ```
 //!
-//! The upper bits of ν are the address, sign included, so each direction has leads of its own. The
-//! lower bits interpolate linearly to the next word's lead. The memory is addressed by the
+//! The upper bits of ν are the address, sign included, so each direction has its own leads. The
+//! lower bits interpolate linearly to the lead of the next word. The memory is addressed by the
 //! distance that becomes ν at the same edge: θa is valid in the same tick as ν.
 //!
-//! Departures: the text has a lead for each speed; here they are 2^`fraction` counts apart. A speed
-//! beyond the memory has the lead of the last that it covers.
+//! Departures: the text has a lead for each speed; here the leads are 2^`fraction` counts apart. A
+//! speed beyond the memory gets the lead of the last speed that the memory covers.
 
 use super::SpeedDetector;
 pub use super::speed_detector::In;
@@ -102,41 +102,42 @@ fn first(words: &[i64]) -> i64 {
 signals! { for TableLead as c;
     /// Output registers of the memory.
     pub struct Reg {
-        /// The lead of the last word's speed at or below ν.
+        /// Lead of the table speed at or below ν.
         base: I(c.position) as Analog = first(&c.table.leads),
-        /// Increase of the lead up to the next word's speed.
+        /// Increase of the lead to the next table speed.
         increment: I(c.position) = first(&c.table.increments),
-        /// Fraction of the step to the next word's speed, in 1/2^`fraction`.
+        /// Distance from the table speed to ν, as a fraction of the table step in units of
+        /// 2^−`fraction`.
         part: U(c.table.fraction) = 0,
     }
     /// The circuit inside.
     pub struct Parts {
-        /// 2.
+        /// Speed detector 2.
         pub detector: Part<SpeedDetector>(SpeedDetector { position: c.position, gate: c.gate }),
     }
     /// Nets.
     pub struct Net {
-        /// Dx: the present sample.
+        /// Dx: present sample.
         pub present: I(c.position) as Analog,
         /// The sample is new in this tick.
         pub fresh: Bit,
-        /// A whole gate was measured since the last restart.
+        /// A whole gate has been measured since the last restart.
         pub enough: Bit,
-        /// ν: counts of the last gate.
+        /// ν: distance of the last gate, in counts.
         pub speed: I(c.position) as Analog,
         /// The memory covers the distance of the gate that ends.
         covered: Bit,
-        /// The distance of the gate, or the last that the memory covers.
+        /// Distance of the gate that ends, limited to the range of the memory.
         held: I(c.table.bits()),
-        /// Its bits.
+        /// `held` as an unsigned word.
         word: U(c.table.bits()),
-        /// The word that is read.
+        /// Address that is read.
         address: U(c.table.address()),
-        /// `part`, with room for a sign.
+        /// `part` as a signed word.
         share: I(c.table.fraction + 1),
-        /// Growth times that.
+        /// `increment` times `share`.
         product: I(c.position + c.table.fraction + 1),
-        /// 1: θa.
+        /// 1: lead angle θa, in counts.
         pub lead: I(c.position) as Analog,
     }
 }

@@ -1,4 +1,4 @@
-//! Target setter 18: a target position and a speed for each step.
+//! Target setter 18: holds a target position and a speed for each step.
 //!
 //! ```text
 //!                                     ┌───────────────┐
@@ -8,12 +8,12 @@
 //!                                     └───────────────┘
 //! ```
 //!
-//! Departure: the speed is stored with the target, since the drive needs one for each step too.
+//! Departure: the speed is stored with the target, because the drive needs one for each step too.
 
 use super::position_history::stored;
 use crate::prelude::*;
 
-/// Target setter 18; a step is at the outputs in the tick after `load`.
+/// Target setter 18; target and speed of a step are at the outputs in the tick after `load`.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TargetSetter {
@@ -28,28 +28,28 @@ pub struct TargetSetter {
 signals! { for TargetSetter as c;
     /// Input ports.
     pub struct In {
-        /// The control computer writes a step.
+        /// Writes target and speed of a step.
         pub write: Bit,
-        /// The step that is written.
+        /// Number of the step to write.
         pub write_step: U(c.step),
-        /// Its target.
+        /// Target to write.
         pub write_target: I(c.position),
-        /// Its speed.
+        /// Speed to write.
         pub write_speed: U(c.speed),
-        /// The step that begins comes to the outputs.
+        /// Reads target and speed of the step that begins.
         pub load: Bit,
-        /// The step that begins.
+        /// Number of the step that begins.
         pub step: U(c.step),
     }
     /// Output registers and memories.
     pub struct Reg {
-        /// Sx: the target of this step.
+        /// Sx: target of this step.
         pub target: I(c.position) as Analog,
         /// Speed of the move to the target, for the drive.
         pub speed: U(c.speed),
-        /// Targets by step.
+        /// Targets, by step.
         targets: Ram(c.step, c.position),
-        /// Speeds by step.
+        /// Speeds, by step.
         speeds: Ram(c.step, c.speed),
     }
 }

@@ -1,5 +1,5 @@
-//! Time data supply 21: memory 24 with a lead time for each step, ROM 25 with its initial
-//! contents, buffer 29 for the time of the step that runs.
+//! Time data supply 21: memory 24 with a lead time for each step, ROM 25 with its initial contents,
+//! buffer 29 for the time of the running step.
 //!
 //! ```text
 //!                                     ┌───────────┐
@@ -11,9 +11,9 @@
 //!
 //! With `common` all steps share the time of step 0, as the text allows.
 //!
-//! Departures: a write of the control computer that is off the grid of the [ratio
-//! logic](super::ratio_logic), or in the tick in which a learned time is written, is refused and
-//! flagged. Buffer 29 is the memory's output register.
+//! Departures: a write by the control computer is refused and flagged if the time is off the grid
+//! of the [ratio logic](super::ratio_logic), or if a learned time is written in the same tick.
+//! Buffer 29 is the memory's output register.
 
 use crate::prelude::*;
 
@@ -46,54 +46,54 @@ impl TimeData {
 signals! { for TimeData as c;
     /// Input ports.
     pub struct In {
-        /// The time of the step that begins comes to the output.
+        /// Reads the time of the step that begins.
         pub load: Bit,
-        /// The step that runs.
+        /// Number of the running step.
         pub step: U(c.step),
-        /// All steps share one time.
+        /// All steps share the time of step 0.
         pub common: Bit,
-        /// A time has been learned for the step that runs.
+        /// Writes the learned time of the running step; has priority over `write`.
         pub learned: Bit,
-        /// Δt2.
+        /// Δt2: learned time.
         pub learned_time: U(c.time),
-        /// The control computer writes a time.
+        /// Writes a time; refused off the grid, or together with `learned`.
         pub write: Bit,
-        /// The step whose time is written.
+        /// Number of the step to write.
         pub write_step: U(c.step),
-        /// The time that is written, in CKs.
+        /// Time to write.
         pub write_time: U(c.time),
-        /// The time that is written is on the grid.
+        /// `write_time` is on the grid.
         pub write_on_grid: Bit,
-        /// Takes `refused` back.
+        /// Clears `refused`.
         pub clear: Bit,
     }
     /// Output register and memory.
     pub struct Reg {
-        /// 29: Δt1, the lead time of the step that runs.
+        /// 29: Δt1, lead time of the running step.
         pub lead_time: U(c.time) as Analog,
-        /// A write was refused since `clear`.
+        /// A write was refused; cleared by `clear`.
         pub refused: Bit,
-        /// 24: times by step.
+        /// 24: times, by step.
         times: Ram(c.step, c.time) = &c.contents(),
     }
     /// Nets.
     pub struct Net {
-        /// Address of the time of the step.
+        /// Address of the step's time.
         address: U(c.step),
-        /// A write of the control computer is refused.
+        /// The write is refused.
         refuse: Bit,
         /// The memory is written.
         store: Bit,
-        /// Address written to.
+        /// Address to write.
         store_address: U(c.step),
-        /// Time written.
+        /// Time to write.
         store_time: U(c.time),
     }
 }
 
 impl Circuit for TimeData {
     const NAME: &'static str = "time_data";
-    const ABOUT: &'static str = "lead time of each step, with what was learned";
+    const ABOUT: &'static str = "lead time of each step, updated by learning";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

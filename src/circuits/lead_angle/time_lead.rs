@@ -9,9 +9,9 @@
 //! ```
 //!
 //! The history is a shift register, or the RAM that equals it in every tick. The forms that the
-//! text gives as equal can be chosen too: time data that need no logic circuit 13, the two
-//! products in place of 15, and 15 before 14. They take the same samples in the same ticks, and on
-//! the ring of positions their predictions are the same number.
+//! text gives as equal can be chosen too: time data that need no logic circuit 13, the two products
+//! in place of 15, and 15 before 14. They take the same samples in the same ticks, and on the ring
+//! of positions their predictions are equal.
 
 use super::{
     DifferenceHistory, DividedTime, Division, Lead, LeadProducts, PositionHistory, RamHistory,
@@ -161,38 +161,38 @@ signals! { for TimeLead as c;
         pub ck: Bit,
         /// Discards the samples taken so far.
         pub restart: Bit,
-        /// The position.
+        /// Position, in counts.
         pub position: I(c.position),
         /// Δt in CKs, or the divided time data.
         pub lead_time: U(c.word()),
     }
     /// The circuits inside.
     pub struct Parts {
-        /// 13, or the circuit in its place.
+        /// Logic circuit 13, or the circuit in its place.
         pub ratio_logic: RatioPart(&c.ratio()),
-        /// 11 and 14.
+        /// Memory 11 and take-out 14.
         pub history: HistoryPart(&c.history()),
-        /// 15 and 16, or the circuit in their place.
+        /// Subtractor 15 and multiplier 16, or the circuit in their place.
         pub lead_arithmetic: ArithmeticPart(&c.arithmetic()),
     }
     /// Output ports.
     pub struct Net {
-        /// Dx: the present sample.
+        /// Dx: present sample.
         pub present: I(c.position) as Analog,
-        /// N·Δx: the lead; of the two products Dx(+Δt) itself.
+        /// N·Δx: lead. For the two products: the prediction Dx(+Δt).
         pub lead: I(c.position) as Analog,
         /// Sample and lead are new in this tick.
         pub fresh: Bit,
         /// The history reaches back as far as the time needs.
         pub enough: Bit,
-        /// Δt in CKs, of data that hold N and Δt/N.
+        /// Δt in CKs, from time data that contain N and Δt/N.
         pub code: U(c.divided().time()) if (c.division == Division::Beforehand),
     }
 }
 
 impl Circuit for TimeLead {
     const NAME: &'static str = "time_lead";
-    const ABOUT: &'static str = "the lead of a time, from a shift register of samples";
+    const ABOUT: &'static str = "lead for a time, from a shift register of samples";
     records!(In, Nothing, Net, Parts);
 
     fn name(&self) -> &'static str {

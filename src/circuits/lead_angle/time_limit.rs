@@ -1,5 +1,5 @@
-//! Limit of the times where N is fixed at 1: replaces the ratio logic where times are learned and
-//! written.
+//! Limit of the times where N is fixed at 1: replaces the ratio logic for learned and written
+//! times.
 //!
 //! ```text
 //!               ┌────────────┐
@@ -7,11 +7,10 @@
 //!               └────────────┘
 //! ```
 //!
-//! Every CK of the history is a time then, so nothing is rounded (N=1に固定する場合はこのような論理回路13は
-//! 不要).
+//! Every CK of the history is then a time, so nothing is rounded (N=1に固定する場合はこのような論理回路13は不要).
 //!
-//! Departure: a time beyond the history would never be predicted with, and so never stop the body. The
-//! longest of the history takes its place, and `on_grid` is low.
+//! Departure: a time beyond the history would give no prediction, and the body would never stop.
+//! The longest time of the history is used in its place, and `on_grid` is low.
 
 use super::codes::tap_width;
 use crate::prelude::*;
@@ -34,16 +33,16 @@ signals! { for TimeLimit as c;
     pub struct Net {
         /// The time is longer than the history.
         beyond: Bit,
-        /// The time, or the longest of the history.
+        /// The time, limited to the longest of the history.
         pub code: U(tap_width(c.stages)),
-        /// The time is one of the history, or 0 for none.
+        /// The time is within the history.
         pub on_grid: Bit,
     }
 }
 
 impl Circuit for TimeLimit {
     const NAME: &'static str = "time_limit";
-    const ABOUT: &'static str = "keeps times within the history where N is fixed at 1";
+    const ABOUT: &'static str = "limits times to the history where N is fixed at 1";
     records!(In, Nothing, Net);
 
     fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {

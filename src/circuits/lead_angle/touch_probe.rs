@@ -1,4 +1,4 @@
-//! Touch probe: the position at which the operation of the control signal took effect.
+//! Touch probe: latches the position at which the operation of the control signal took effect.
 //!
 //! ```text
 //!                        ┌─────────────┐
@@ -9,12 +9,13 @@
 //! ```
 //!
 //! A control signal need not stop the body (停止制御のみならず): it can start any operation while the body
-//! moves on. A sensor then says when the operation takes effect. At its rise the count of the
-//! detector is latched, not a sample, which would be up to a CK older.
+//! moves on. A sensor then reports when the operation takes effect. At its rising edge the count of
+//! the detector is latched, not a sample, which would be up to one CK older.
 
 use crate::prelude::*;
 
-/// Touch probe; `taken` and the count show in the tick after the rise of `effect`.
+/// Touch probe; `taken` and the latched count are valid in the tick after the rising edge of
+/// `effect`.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TouchProbe {
@@ -27,35 +28,35 @@ signals! { for TouchProbe as c;
     pub struct In {
         /// The control signal of an operation is active.
         pub active: Bit,
-        /// The operation takes effect; synchronised.
+        /// High when the operation takes effect; synchronous to the clock.
         pub effect: Bit,
         /// Count of the detector.
         pub position: I(c.position),
-        /// Dx: the present sample.
+        /// Dx: present sample.
         pub present: I(c.position),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// `effect`, a tick ago.
+        /// `effect` one tick ago.
         effect_before: Bit = 0,
-        /// The effect has come since the control signal.
+        /// The operation has taken effect since the control signal.
         pub taken: Bit = 0,
         /// Count at the effect.
         latched: I(c.position) as Analog,
     }
     /// Nets.
     pub struct Net {
-        /// The effect comes, for the first time since the control signal.
+        /// The operation takes effect, for the first time since the control signal.
         comes: Bit,
-        /// Position by which a positioning is judged: the count at the effect, or, until then, the
-        /// present sample.
+        /// Position of the positioning: the count at the effect; before the effect, the present
+        /// sample.
         pub measured: I(c.position) as Analog,
     }
 }
 
 impl Circuit for TouchProbe {
     const NAME: &'static str = "touch_probe";
-    const ABOUT: &'static str = "keeps where an operation took effect";
+    const ABOUT: &'static str = "latches the position at which an operation took effect";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

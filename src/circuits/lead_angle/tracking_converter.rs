@@ -1,5 +1,5 @@
-//! Tracking converter: angle and speed of a resolver from its two windings. Part of position
-//! detector 10 of JPH0646367B2.
+//! Tracking converter: computes angle and speed of a resolver from its two windings. Part of
+//! position detector 10 of JPH0646367B2.
 //!
 //! ```text
 //!          ┌────────────── tracking converter ──────────────┐
@@ -10,10 +10,10 @@
 //!          └────────────────────────────────────────────────┘
 //! ```
 //!
-//! One winding of the resolver is excited by a carrier, and the other two have its amplitude times
+//! One winding of the resolver is excited by a carrier. The other two output its amplitude times
 //! sine and cosine of θ (amplitude mode). Both are sampled by A/D converters at a peak of the
-//! carrier, which demodulates them. The vector (sine, cosine) turned by φ is a·(sin(θ − φ), cos(θ
-//! − φ)), where a is the amplitude: no table of sines is needed, and no product.
+//! carrier, which demodulates them. The vector (sine, cosine) rotated by φ is a·(sin(θ − φ), cos(θ
+//! − φ)), where a is the amplitude. No table of sines and no product is needed.
 
 use super::{TrackingLoop, tracking_loop};
 use crate::circuits::blocks::{Cordic, cordic};
@@ -22,7 +22,7 @@ use crate::prelude::*;
 /// Tracking converter.
 ///
 /// `take` is high A + 1 ticks after `strobe`, for the angle that is valid until then: the
-/// prediction of the conversions before for this one.
+/// prediction of earlier conversions for this one.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrackingConverter {
@@ -60,28 +60,28 @@ impl TrackingConverter {
 signals! { for TrackingConverter as c;
     /// Input ports.
     pub struct In {
-        /// The words are new, at least A + 2 ticks after those before; earlier ones are ignored,
-        /// or use the angle of the conversion before.
+        /// `sine` and `cosine` are new; at least A + 2 ticks after the strobe before. An earlier
+        /// strobe is ignored, or uses the angle of the conversion before.
         pub strobe: Bit,
-        /// The sine winding at a peak of the carrier.
+        /// Sine winding, sampled at a peak of the carrier.
         pub sine: I(c.converter) as Analog,
-        /// The cosine winding.
+        /// Cosine winding, sampled at a peak of the carrier.
         pub cosine: I(c.converter) as Analog,
     }
     /// The circuits inside.
     pub struct Parts {
-        /// The windings turned back.
+        /// Rotation of the windings by the angle.
         pub cordic: Part<Cordic>(c.cordic()),
-        /// Angle and speed.
+        /// Tracking loop: angle and speed.
         pub tracking: Part<TrackingLoop>(c.tracking.clone()),
     }
     /// Output ports.
     pub struct Net {
-        /// φ, in units of 2^−A pitch.
+        /// φ: angle, in units of 2^−A pitch.
         pub angle: U(c.tracking.angle) as Analog,
         /// Change of the angle per conversion, in units of 2^−(A + 2·G) pitch.
         pub speed: I(c.tracking.phase()) as Analog,
-        /// The angle is a place.
+        /// The angle is taken as a place.
         pub take: Bit,
         /// The angle is invalid: there is no signal, or the loop is not locked.
         pub fault: Bit,

@@ -1,4 +1,4 @@
-//! Tracking loop: the angle and the speed that a resolver's windings ask for. Part of position
+//! Tracking loop: follows the angle of a resolver's windings, with its speed. Part of position
 //! detector 10 of JPH0646367B2.
 //!
 //! ```text
@@ -9,20 +9,20 @@
 //!               └───────────────┘
 //! ```
 //!
-//! The loop is of type II. The windings, turned back by its angle φ, are a·sin(θ − φ), which is the
-//! error, and a·cos(θ − φ), a being their amplitude. The error is integrated into a speed, and the speed
-//! with a multiple of the error into the angle, once in a conversion. All words are parts of a pitch and
-//! wrap with it.
+//! The loop is of type II. The windings, rotated back by the loop's angle φ, are a·sin(θ − φ),
+//! which is the error, and a·cos(θ − φ), where a is the amplitude. Once per conversion the error is
+//! integrated into a speed, and the speed plus a multiple of the error into the angle. All words
+//! are fractions of a pitch and wrap with it.
 //!
-//! The error is rounded to a word whose unit is wider than one of the angle: there is always an
-//! angle at which it is 0, so for a body at rest the angle rests too.
+//! The error is rounded to a word whose unit is larger than that of the angle. So there is always
+//! an angle at which the error is 0, and for a body at rest the angle rests too.
 //!
-//! Beyond a quarter of a pitch the sine decreases again, to 0 at half a pitch, where the loop
-//! would stop. So where the cosine is negative its amount is added: the error grows on to 1.41·a
-//! and is a at half a pitch. There the loop moves upwards.
+//! Beyond a quarter of a pitch the sine decreases again, to 0 at half a pitch, where the loop would
+//! stop. So where the cosine is negative, its magnitude is added: the error grows on to 1.41·a, and
+//! is a at half a pitch. There the loop moves upwards.
 //!
-//! Departures: the text has no such loop. The first conversions after power-on are given to it to
-//! settle, and no place is taken of them.
+//! Departures: the text has no such loop. The first conversions after power-on let the loop settle,
+//! and no place is taken from them.
 
 use crate::prelude::*;
 
@@ -81,7 +81,7 @@ impl TrackingLoop {
 signals! { for TrackingLoop as c;
     /// Input ports.
     pub struct In {
-        /// A conversion is done; both words are valid.
+        /// The CORDIC has a result: `quadrature` and `in_phase` are valid.
         pub done: Bit,
         /// a·sin(θ − φ), times the CORDIC's gain.
         pub quadrature: I(c.vector()) as Analog,
@@ -90,28 +90,28 @@ signals! { for TrackingLoop as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// φ, in units of 2^−(A + 2·G) pitch; wraps. Its upper A bits are the angle.
+        /// φ, in units of 2^−(A + 2·G) pitch; wraps. The upper A bits are the angle.
         pub phase: U(c.phase()) as Analog = 0,
-        /// Change of the phase per conversion, in the same units; wraps.
+        /// Change of the phase per conversion, in units of 2^−(A + 2·G) pitch; wraps.
         pub speed: I(c.phase()) as Analog = 0,
-        /// Conversions since power-on, to the end of their number.
+        /// Conversions since power-on; stops at its greatest value.
         settled: U(c.settling) = 0,
     }
     /// Nets.
     pub struct Net {
         /// The error is beyond a quarter of a pitch.
         beyond: Bit,
-        /// The error, growing on beyond it.
+        /// Error that keeps growing beyond a quarter of a pitch.
         folded: I(c.vector()),
         /// `folded` plus half a unit of `error`.
         raised: I(c.vector() + 1),
-        /// The error rounded.
+        /// `folded`, rounded.
         error: I(c.angle.saturating_sub(1)) as Analog,
-        /// The speed with the error.
+        /// Speed plus error.
         next_speed: I(c.phase()),
-        /// The error's own part in the angle.
+        /// Part of the angle's change that is proportional to the error.
         proportional: I(c.phase()),
-        /// The angle that the conversion began with is a place.
+        /// The angle with which the conversion began is taken as a place.
         pub take: Bit,
         /// The angle is invalid: there is no signal, or the loop is not locked.
         pub fault: Bit,
@@ -120,7 +120,7 @@ signals! { for TrackingLoop as c;
 
 impl Circuit for TrackingLoop {
     const NAME: &'static str = "tracking_loop";
-    const ABOUT: &'static str = "angle and speed of a resolver, by the error of the angle";
+    const ABOUT: &'static str = "angle and speed of a resolver, from the error of the angle";
     records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {

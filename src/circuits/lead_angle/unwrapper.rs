@@ -1,4 +1,4 @@
-//! Unwrapper: a continuous position from places in a turn or in a pitch. Part of position detector
+//! Unwrapper: makes a continuous position from places in a turn or pitch. Part of position detector
 //! 10 of JPH0646367B2.
 //!
 //! ```text
@@ -10,16 +10,18 @@
 //!                └───────────┘
 //! ```
 //!
-//! A sensor knows only the place in its turn, or in its pitch. The shorter way round from sample
-//! to sample is added to a position that wraps at 2^position only. The text says nothing of turns.
+//! A sensor knows only the place in its turn or pitch. The shorter way round from sample to sample
+//! is added to a position, which wraps at 2^position only. The text says nothing about turns.
 //!
 //! Departures: the position after power-on or `clear` is the place. A move of more than a quarter
-//! of the modulus per sample is counted, but `lost` is high: from half of it on a move looks like
-//! one in the other direction. A place with `fault` is not counted, and sets `lost` too.
+//! of the modulus per sample is counted, but sets `lost`, because a move of half the modulus or
+//! more looks like one in the other direction. A place with `fault` is not counted, and sets `lost`
+//! too.
 
 use crate::prelude::*;
 
-/// Unwrapper; a place taken in tick n is in `position` from n + 1 on, with `sample` in that tick.
+/// Unwrapper; a place taken in tick n is in `position` from tick n + 1 on. `sample` is high in tick
+/// n + 1.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Unwrapper {
@@ -36,41 +38,41 @@ signals! { for Unwrapper as c;
         pub take: Bit,
         /// The place is invalid: it is not counted.
         pub fault: Bit,
-        /// The place, below the modulus.
+        /// Place in the turn or pitch, below the modulus.
         pub place: U(c.place),
         /// Counts of a turn or of a pitch; 0 for 2^place.
         pub modulus: U(c.place),
-        /// The next place is taken for the position, as after power-on; `lost` off.
+        /// The next place becomes the position, as after power-on; clears `lost`.
         pub clear: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// A place was counted since power-on or `clear`.
+        /// A place has been counted since power-on or `clear`.
         known: Bit,
-        /// The place of the last sample.
+        /// Place of the last sample.
         last: U(c.place),
-        /// A sample is new in this tick: CK.
+        /// High for one tick: `position` is a new sample. CK of the memory 11.
         pub sample: Bit,
-        /// Dx: the place, and the turns since; wraps.
+        /// Dx: place plus the counts of whole turns; wraps.
         pub position: I(c.position) as Analog = 0,
-        /// The body was too fast, or a place was invalid, since `clear`.
+        /// The body was too fast, or a place was invalid; cleared by `clear`.
         pub lost: Bit,
     }
     /// Nets.
     pub struct Net {
-        /// The place counts.
+        /// The place is counted.
         counted: Bit,
-        /// The modulus, with room for all places.
+        /// Modulus, 2^place where `modulus` is 0.
         counts: U(c.place + 1),
-        /// The place, the modulus and half of it, with room for a sign.
+        /// Place as a signed word.
         placed: I(c.place + 2),
-        /// The modulus.
+        /// Modulus as a signed word.
         whole: I(c.place + 2),
-        /// Half of it.
+        /// Half of the modulus as a signed word.
         half: I(c.place + 2),
-        /// Counts gone since the last sample, in either direction.
+        /// Place minus the place of the last sample.
         gone: I(c.place + 2),
-        /// Counts gone by the shorter way round.
+        /// Move since the last sample, the shorter way round.
         way: I(c.place + 2),
         /// The move is longer than a quarter of the modulus.
         far: Bit,
@@ -81,7 +83,7 @@ signals! { for Unwrapper as c;
 
 impl Circuit for Unwrapper {
     const NAME: &'static str = "unwrapper";
-    const ABOUT: &'static str = "a position that goes on, from places in a turn or in a pitch";
+    const ABOUT: &'static str = "continuous position from places in a turn or pitch";
     records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {

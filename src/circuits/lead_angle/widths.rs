@@ -14,9 +14,9 @@ pub struct Widths {
     pub step: usize,
     /// Width of a speed.
     pub speed: usize,
-    /// Width of a time in CKs that is no lead time.
+    /// Width of times in CKs, other than lead times.
     pub cks: usize,
-    /// Width of the CK's period in ticks.
+    /// Width of the period of CK in ticks.
     pub ck_period: usize,
     /// Width of an absolute encoder's word, or of a place in a pitch.
     pub code: usize,
@@ -25,7 +25,7 @@ pub struct Widths {
 }
 
 impl Widths {
-    /// Widths of the text's table, with room for the rest.
+    /// Widths for the text's table, with headroom for the rest.
     pub const FULL: Self = Widths {
         stages: codes::STAGES as usize,
         position: 24,

@@ -1,5 +1,4 @@
-//! The registers of the integrator 24 (¶0011–0013): I, B, and the signs around an unsigned
-//! divider.
+//! Registers of the integrator 24 (¶0011–0013): I and B, and the signs around an unsigned divider.
 //!
 //! ```text
 //!                         ┌─────────────┐
@@ -10,12 +9,13 @@
 //!                         └─────────────┘
 //! ```
 //!
-//! `(Δy·δx + B) / Δx + I → I`, remainder `→ B`. The division is made of magnitudes. With b = B
-//! times the sign of Δx, which is 0 … |Δx| − 1 under the floor rule, a term Δy·δx/Δx that counts
-//! down is divided as `(|Δy·δx| + (|Δx| − 1 − b)) / |Δx|`: quotient and remainder then are those
-//! of the floor with the sign of the one and the complement of the other turned round.
-//!
-//! Departures: the rounding rule, which the text leaves open, is a [`Rule`]; a start with a Δ of 0
+//! Each division computes `(Δy·δx + B) / Δx + I → I`, remainder `→ B`. The divider works on
+//! magnitudes. Let b be B times the sign of Δx; under the floor rule b is 0 … |Δx| − 1. Where the
+//! term Δy·δx/Δx is negative, the divider computes `(|Δy·δx| + (|Δx| − 1 − b)) / |Δx|`. The
+//! negative of this quotient and the complement of this remainder, |Δx| − 1 − remainder, are those
+//! of the floor.
+//! Departures: the rounding rule, which the text leaves open, is a [`Rule`]; a start with Δx = 0 is
+//! ignored.
 //! for the master is not taken.
 
 use super::Integrator;
@@ -69,13 +69,13 @@ impl Accumulator {
 signals! { for (Accumulator, Integrator) as c;
     /// The line, and the increment of the master axis.
     pub struct Motion {
-        /// A positioning cycle begins: I and B take their first values.
+        /// Begins a positioning cycle: I and B take their initial values.
         pub clear: Bit,
         /// Δx: signed distance of the master axis, constant from `clear` on for the whole cycle.
         pub master: I(c.position),
         /// Δy: signed distance of the slave axis, constant from `clear` on for the whole cycle.
         pub slave: I(c.position),
-        /// An increment is given; not taken while `busy`.
+        /// Starts a division for `increment`; ignored while `busy`.
         pub start: Bit,
         /// δx(n): increment of the master axis in this scan.
         pub increment: I(c.position),
@@ -87,39 +87,39 @@ signals! { for Accumulator as c;
     pub struct In {
         /// The line, and the increment of the master axis.
         pub motion: Motion(c) as Flat,
-        /// The divider is done.
+        /// The divider has a result.
         pub done: Bit,
-        /// Its quotient.
+        /// Quotient from the divider.
         pub quotient: U(c.divider()),
-        /// Its remainder.
+        /// Remainder from the divider.
         pub rest: U(c.divider()),
     }
     /// Flip-flops.
     pub struct Reg {
         /// I: distance moved by the slave axis since the cycle began.
         pub integral: I(c.position) as Analog = 0,
-        /// B: remainder of the division; it is carried into the next.
+        /// B: remainder of the division, carried into the next one.
         pub remainder: I(c.position) as Analog = 0,
         /// A division is running.
         pub busy: Bit = 0,
-        /// Its result belongs to a cycle that is over, and is not taken.
+        /// The running division belongs to a cycle that is over: its result is discarded.
         dropped: Bit = 0,
-        /// Its term counts down.
+        /// The term of the running division is negative.
         down: Bit = 0,
-        /// Truncating rule: its dividend is one divisor too large.
+        /// Truncating rule: the dividend of the running division is one divisor too large.
         lent: Bit = 0,
-        /// I and B are new in this tick.
+        /// I and B have new values in this tick.
         pub valid: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// The divider begins.
+        /// Starts the divider.
         pub divide: Bit,
         /// |Δy|.
         pub multiplicand: U(c.divider()),
         /// |δx|.
         pub multiplier: U(c.position),
-        /// Addend for the carried remainder.
+        /// Addend of the dividend, for the carried remainder.
         pub addend: U(c.divider()),
         /// |Δx|.
         pub divisor: U(c.divider()),
@@ -127,21 +127,21 @@ signals! { for Accumulator as c;
         modulus: U(c.position),
         /// The term Δy·δx/Δx is negative.
         term_down: Bit,
-        /// B times the sign of Δx, and under the truncating rule also that of the term.
+        /// B times the sign of Δx; under the truncating rule also times the sign of the term.
         carried: I(c.position),
-        /// |δy(n)|, in the tick of `done`.
+        /// |δy(n)|; valid in the tick of `done`.
         way: I(c.position),
-        /// The remainder after this division, times the sign of Δx.
+        /// Remainder after this division, times the sign of Δx; valid in the tick of `done`.
         rest_positive: I(c.position),
-        /// δy(n): increment of the slave axis, in the tick of `done`.
+        /// δy(n): increment of the slave axis; valid in the tick of `done`.
         step: I(c.position),
-        /// The remainder after this division.
+        /// Next value of B; valid in the tick of `done`.
         left: I(c.position),
-        /// The division is over.
+        /// The division ends in this tick.
         over: Bit,
-        /// Its result is taken.
+        /// The result of the division is used.
         taken: Bit,
-        /// B at the beginning of a cycle.
+        /// Initial value of B in a cycle.
         first: I(c.position),
     }
 }

@@ -27,7 +27,7 @@ pub struct AxisSwitch {
 signals! { for AxisSwitch as c;
     /// Input ports.
     pub struct In {
-        /// Position and integral of a scan are ready.
+        /// Loads both commands; position and integral of a scan are valid.
         pub load: Bit,
         /// Y is the master axis (Fig. 6).
         pub swapped: Bit,
@@ -35,9 +35,9 @@ signals! { for AxisSwitch as c;
         pub position: I(c.position),
         /// Position of the slave axis at the start of the cycle.
         pub slave_from: I(c.position),
-        /// I: distance moved by the slave axis since then.
+        /// I: distance moved by the slave axis since the start of the cycle.
         pub integral: I(c.position),
-        /// Both commands become 0.
+        /// Clears both commands to 0.
         pub clear: Bit,
     }
     /// Flip-flops.
@@ -49,14 +49,15 @@ signals! { for AxisSwitch as c;
     }
     /// Nets.
     pub struct Net {
-        /// 25: position command of the slave axis.
+        /// Adder 25: position command of the slave axis.
         slave_position: I(c.position),
     }
 }
 
 impl Circuit for AxisSwitch {
     const NAME: &'static str = "axis_switch";
-    const ABOUT: &'static str = "adds up the slave's command, brings both commands to their axes";
+    const ABOUT: &'static str =
+        "adds up the slave's command and routes both commands to their axes";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

@@ -39,16 +39,16 @@ impl CommandSource {
 signals! { for TargetData as c;
     /// Commands of the control computer.
     pub struct Orders {
-        /// A target is given; not taken unless `ready`, or with `halt`.
+        /// Gives a target; ignored unless `ready` or `halt`.
         pub push: Bit,
-        /// Its X.
+        /// X of the target, in counts.
         pub target_x: I(c.widths.position),
-        /// Its Y.
+        /// Y of the target, in counts.
         pub target_y: I(c.widths.position),
-        /// Speed and times of the move to it.
+        /// Speed and times of the move to the target.
         pub settings: Settings(c) as Flat,
-        /// Ends the cycle, along the line or each axis by its own ramp, and forgets the targets that
-        /// wait; one that is pushed with it is kept, and is where the axes go next.
+        /// Ends the cycle, along the line or each axis on its own ramp, and discards the waiting
+        /// targets. A target pushed in the same tick is kept and comes next.
         pub halt: Bit,
     }
 }
@@ -58,32 +58,32 @@ signals! { for (LinearInterpolator, Conventional) as c;
     pub struct In {
         /// A scan begins.
         pub scan: Bit,
-        /// No new cycle begins.
+        /// Blocks the start of a new cycle.
         pub hold: Bit,
         /// Commands of the control computer.
         pub orders: Orders(&c.targets()) as Flat,
-        /// Between two cycles: the commands become 0, the flags go.
+        /// Sets the commands to 0 and clears the flags; effective only between two cycles.
         pub clear: Bit,
     }
     /// Output ports.
     pub struct Net {
-        /// Position command x(n).
+        /// Position command x(n), in counts.
         pub x: I(c.widths.position) as Analog,
-        /// Position command y(n).
+        /// Position command y(n), in counts.
         pub y: I(c.widths.position) as Analog,
         /// A cycle begins.
         pub start: Bit,
-        /// New commands show from the next tick on.
+        /// New commands are valid from the next tick on.
         pub load: Bit,
-        /// A push is taken.
+        /// Ready: a target is accepted.
         pub ready: Bit,
-        /// A cycle runs or is prepared, or a target waits.
+        /// A cycle runs or is being prepared, or a target is waiting.
         pub busy: Bit,
-        /// A scan came too early since the last `clear`.
+        /// A scan has come before the previous one was computed; cleared by `clear`.
         pub late: Bit,
-        /// A target was too far since the last `clear`.
+        /// A target was too far away and has been refused; cleared by `clear`.
         pub refused: Bit,
-        /// `clear` is taken.
+        /// `clear` takes effect in this tick.
         pub home: Bit,
     }
 }

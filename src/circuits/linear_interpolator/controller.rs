@@ -53,11 +53,11 @@ signals! { for Controller as c;
     pub struct In {
         /// Commands of the control computer.
         pub orders: Orders(&c.source.targets()) as Flat,
-        /// Between two cycles: commands and feedback become 0, the flags go.
+        /// Sets commands and feedback to 0 and clears the flags; effective only between two cycles.
         pub clear: Bit,
-        /// A cycle begins only when both axes are in position.
+        /// High: a cycle begins only when both axes are in position.
         pub exact_stop: Bit,
-        /// Ticks of a scan.
+        /// Scan period in ticks.
         pub scan_period: U(c.scan),
         /// Position gain of X, see [`position_loop::In::gain`].
         pub gain_x: U(c.loops().gain),
@@ -65,13 +65,13 @@ signals! { for Controller as c;
         pub gain_y: U(c.loops().gain),
         /// In-position window in counts.
         pub window: U(c.loops().position),
-        /// Encoder of X, channel A.
+        /// Channel A of the encoder of X, asynchronous.
         pub a_x: Bit,
-        /// Encoder of X, channel B.
+        /// Channel B of the encoder of X, asynchronous.
         pub b_x: Bit,
-        /// Encoder of Y, channel A.
+        /// Channel A of the encoder of Y, asynchronous.
         pub a_y: Bit,
-        /// Encoder of Y, channel B.
+        /// Channel B of the encoder of Y, asynchronous.
         pub b_y: Bit,
     }
     /// The circuits inside.
@@ -91,33 +91,35 @@ signals! { for Controller as c;
     pub struct Net {
         /// A scan begins.
         pub scan: Bit,
-        /// Position command of X.
+        /// Position command of X, in counts.
         pub command_x: I(c.loops().position) as Analog,
-        /// Position command of Y.
+        /// Position command of Y, in counts.
         pub command_y: I(c.loops().position) as Analog,
-        /// Position feedback of X.
+        /// Position feedback of X, in counts.
         pub feedback_x: I(c.loops().position) as Analog,
-        /// Position feedback of Y.
+        /// Position feedback of Y, in counts.
         pub feedback_y: I(c.loops().position) as Analog,
-        /// Speed reference of X, the word of its D/A converter.
+        /// Speed reference of X: word for the D/A converter.
         pub reference_x: I(c.loops().converter) as Analog,
-        /// Speed reference of Y.
+        /// Speed reference of Y: word for the D/A converter.
         pub reference_y: I(c.loops().converter) as Analog,
         /// A cycle begins.
         pub start: Bit,
-        /// New commands show from the next tick on.
+        /// New commands are valid from the next tick on.
         pub load: Bit,
-        /// A push is taken.
+        /// Ready: a target is accepted.
         pub ready: Bit,
-        /// A cycle runs or is prepared, or a target waits, or an axis is not in position.
+        /// A cycle runs or is being prepared, a target is waiting, or an axis is not in position.
         pub busy: Bit,
-        /// A scan came before the one before was computed, since the last `clear`.
+        /// A scan has come before the previous one was computed; cleared by `clear`.
         pub late: Bit,
-        /// A target was too far since the last `clear`.
+        /// A target was too far away and has been refused; cleared by `clear`.
         pub refused: Bit,
-        /// The encoder of X was too fast since the last `clear`.
+        /// Both encoder channels of X have changed at once: the feedback is wrong; cleared by
+        /// `clear`.
         pub lost_x: Bit,
-        /// The encoder of Y was too fast since the last `clear`.
+        /// Both encoder channels of Y have changed at once: the feedback is wrong; cleared by
+        /// `clear`.
         pub lost_y: Bit,
     }
 }

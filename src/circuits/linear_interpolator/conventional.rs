@@ -9,10 +9,10 @@
 //!                       └────────────────────┘
 //! ```
 //!
-//! Ports are those of the linear interpolator, but speed and times are those of X, and Y has its
-//! own. An abort ends each axis by its own ramp. Both patterns start together. The settings make
-//! the two methods of ¶0005: the same for both axes, or speeds in proportion to the distances with
-//! times inverse to them.
+//! The ports are those of the linear interpolator, but X and Y each have their own speed and times.
+//! Both patterns start together. An abort stops each axis on its own ramp. The settings choose
+//! between the two methods of ¶0005: the same speed and times for both axes, or speeds in
+//! proportion to the distances with times inverse to them.
 
 use super::command_source::ports_out;
 pub use super::command_source::{In, Net};
@@ -23,7 +23,7 @@ use crate::prelude::*;
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Conventional {
-    /// Its widths, by name.
+    /// Word widths, by name.
     pub widths: Widths,
 }
 
@@ -66,7 +66,8 @@ signals! { for Conventional as c;
 
 impl Circuit for Conventional {
     const NAME: &'static str = "conventional_interpolator";
-    const ABOUT: &'static str = "the system before: an independent position pattern for each axis";
+    const ABOUT: &'static str =
+        "conventional system: an independent position pattern for each axis";
     records!(In, Nothing, Net, Parts);
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {

@@ -1,4 +1,4 @@
-//! Cycle gate: keeps the next positioning cycle back until both axes are in position.
+//! Cycle gate: holds back the next positioning cycle until both axes are in position.
 //!
 //! ```text
 //!                                ┌────────────┐
@@ -8,7 +8,7 @@
 //! ```
 //!
 //! Departure: the text has no such gate. Without it a cycle begins while the motors still follow
-//! the one before, and they cut the corner.
+//! the previous one, and the motors cut the corner.
 
 use crate::prelude::*;
 
@@ -20,7 +20,7 @@ pub struct CycleGate {}
 signals! { for CycleGate as c;
     /// Input ports.
     pub struct In {
-        /// Cycles wait for the axes.
+        /// High: a cycle waits until both axes are in position.
         pub exact_stop: Bit,
         /// X is in position.
         pub in_position_x: Bit,
@@ -29,7 +29,7 @@ signals! { for CycleGate as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// No new cycle begins.
+        /// Blocks the start of a new cycle.
         pub hold: Bit = 0,
     }
 }

@@ -1,5 +1,5 @@
-//! Differentiator 21 (¶0013): delay element 22 and subtractor 23. How far the position command has
-//! moved since the scan before.
+//! Differentiator 21 (¶0013): delay element 22 and subtractor 23. Computes the increment of the
+//! position command since the previous scan.
 //!
 //! ```text
 //!               ┌────────────────┐
@@ -28,28 +28,28 @@ signals! { for Differentiator as c;
     pub struct In {
         /// A positioning cycle begins.
         pub load: Bit,
-        /// Position at which it begins.
+        /// Position at the start of the cycle.
         pub from: I(c.position),
-        /// `position` is new.
+        /// `position` has a new value.
         pub valid: Bit,
         /// Position command x(n).
         pub position: I(c.position) as Analog,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// 22: the position command of the scan before, x(n − 1).
+        /// 22: position command of the previous scan, x(n − 1).
         pub(crate) lagged: I(c.position) as Analog = 0,
     }
     /// Nets.
     pub struct Net {
-        /// 23: δx(n), which is meant in the tick of `valid`.
+        /// 23: δx(n); valid in the tick of `valid`.
         pub increment: I(c.position),
     }
 }
 
 impl Circuit for Differentiator {
     const NAME: &'static str = "differentiator";
-    const ABOUT: &'static str = "increment of the position command since the scan before";
+    const ABOUT: &'static str = "increment of the position command since the previous scan";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

@@ -1,5 +1,5 @@
-//! Integrator 24 (¶0011–0013, eq. (1)): the distance of the slave axis when the master moves by
-//! δx, by an integer division whose remainder is carried into the next.
+//! Integrator 24 (¶0011–0013, eq. (1)): computes the motion of the slave axis for an increment δx
+//! of the master, by an integer division whose remainder is carried into the next one.
 //!
 //! ```text
 //!                     ┌────────────┐
@@ -49,25 +49,25 @@ signals! { for Integrator as c;
     pub struct Parts {
         /// I and B.
         pub accumulator: Part<Accumulator>(Accumulator { position: c.position, rule: c.rule }),
-        /// The divider.
+        /// Divider.
         pub mul_div: Part<MulDiv>(c.mul_div()),
     }
     /// Output ports.
     pub struct Net {
         /// I: distance moved by the slave axis since the cycle began.
         pub integral: I(c.position) as Analog,
-        /// B: remainder of the division.
+        /// B: remainder of the division, carried into the next one.
         pub remainder: I(c.position) as Analog,
-        /// A start is not taken.
+        /// A division is running; a start is ignored.
         pub busy: Bit,
-        /// I and B are new in this tick.
+        /// I and B have new values in this tick.
         pub valid: Bit,
     }
 }
 
 impl Circuit for Integrator {
     const NAME: &'static str = "integrator";
-    const ABOUT: &'static str = "what the slave axis moves, by integer division with remainder";
+    const ABOUT: &'static str = "motion of the slave axis, by integer division with remainder";
     records!(In, Nothing, Net, Parts);
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {

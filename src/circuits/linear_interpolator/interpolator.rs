@@ -18,7 +18,7 @@ use crate::prelude::*;
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LinearInterpolator {
-    /// Its widths, by name.
+    /// Word widths, by name.
     pub widths: Widths,
     /// Rounding of the integrator's quotients.
     pub rule: Rule,

@@ -1,5 +1,5 @@
-//! The law of the straight line as a circuit that can be proved: an integrator under any increments
-//! that stay on the segment, with ghost registers that no hardware has.
+//! Law of the straight line as a circuit that can be proved: an integrator under arbitrary
+//! increments that stay on the segment, and ghost registers, which exist for the proof only.
 //!
 //! ```text
 //!                     ┌──────────┐
@@ -14,7 +14,7 @@ use crate::hdl::Registers;
 use crate::prelude::*;
 use crate::sim::Sample;
 
-/// An integrator with its increments added up.
+/// Integrator and the sum of its increments.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LineLaw {
@@ -25,15 +25,15 @@ pub struct LineLaw {
 signals! { for LineLaw as c;
     /// Input ports.
     pub struct In {
-        /// A positioning cycle begins, with new distances.
+        /// Begins a positioning cycle with new distances.
         pub clear: Bit,
         /// Distance of the master axis; sampled with `clear`.
         pub master: I(c.integrator.position),
         /// Distance of the slave axis; sampled with `clear`.
         pub slave: I(c.integrator.position),
-        /// An increment is given.
+        /// Gives an increment.
         pub start: Bit,
-        /// The increment.
+        /// Increment of the master axis.
         pub increment: I(c.integrator.position),
     }
     /// Flip-flops.
@@ -42,11 +42,11 @@ signals! { for LineLaw as c;
         held_master: I(c.integrator.position) = 0,
         /// Distance of the slave axis.
         held_slave: I(c.integrator.position) = 0,
-        /// Ghost: the increments of this cycle, added up.
+        /// Ghost: sum of the increments of this cycle.
         sum: I(c.integrator.position) as Analog = 0,
-        /// Ghost: the increments before the one that is being divided, added up.
+        /// Ghost: sum of the increments before the one being divided.
         sum_before: I(c.integrator.position) = 0,
-        /// Ghost: I before the one that is being divided.
+        /// Ghost: I before the increment being divided.
         integral_before: I(c.integrator.position) = 0,
     }
     /// The circuit inside.
@@ -60,18 +60,19 @@ signals! { for LineLaw as c;
         master_now: I(c.integrator.position),
         /// Distance of the slave axis in this tick.
         slave_now: I(c.integrator.position),
-        /// An increment is taken.
+        /// An increment is accepted.
         take: Bit,
-        /// I.
+        /// I of the integrator.
         pub integral: I(c.integrator.position) as Analog,
-        /// B.
+        /// B of the integrator.
         pub remainder: I(c.integrator.position) as Analog,
     }
 }
 
 impl Circuit for LineLaw {
     const NAME: &'static str = "line_law";
-    const ABOUT: &'static str = "increments of free choice, with ghosts that add them up";
+    const ABOUT: &'static str =
+        "an integrator under arbitrary increments, and ghosts that add them up";
     records!(In, Reg, Net, Parts);
 
     fn tick(&self, i: In, q: Reg, p: Parts) -> (Net, Reg<Edge>) {

@@ -54,7 +54,7 @@ signals! { for LineSweep as c;
     pub struct Reg {
         /// Ticks since the case began.
         ticks: U(log2(c.ticks() as usize)),
-        /// `valid` was high in the tick of the first increment.
+        /// `valid` was high in the expected tick of the first increment.
         first: Bit,
         /// `valid` was high in any other tick.
         wrong: Bit,
@@ -68,18 +68,18 @@ signals! { for LineSweep as c;
     pub struct Net {
         /// I after the second increment.
         pub integral: I(c.integrator.position),
-        /// B after it.
+        /// B after the second increment.
         pub remainder: I(c.integrator.position),
-        /// `valid` in its tick, both times.
+        /// `valid` was high in the expected tick of both increments.
         pub valid: Bit,
-        /// `valid` in any other tick.
+        /// `valid` was high in another tick.
         pub early: Bit,
     }
 }
 
 impl Circuit for LineSweep {
     const NAME: &'static str = "line_sweep";
-    const ABOUT: &'static str = "two increments from the beginning of a cycle";
+    const ABOUT: &'static str = "two increments from the start of a cycle";
     records!(In, Reg, Net, Parts);
 
     fn tick(&self, i: In, q: Reg, p: Parts) -> (Net, Reg<Edge>) {

@@ -74,11 +74,11 @@ signals! { for PatternGenerator as c;
     }
     /// Output ports.
     pub struct Net {
-        /// x(n): the position.
+        /// x(n): position, in counts.
         pub position: I(c.position) as Analog,
         /// A new position is at `position` from this tick on.
         pub valid: Bit,
-        /// `advance` is taken.
+        /// Ready for `advance`.
         pub ready: Bit,
         /// A cycle is running.
         pub active: Bit,
@@ -88,7 +88,7 @@ signals! { for PatternGenerator as c;
 impl Circuit for PatternGenerator {
     const NAME: &'static str = "pattern_generator";
     const ABOUT: &'static str =
-        "a position each scan: speeds up, is steady, slows down, ends exactly";
+        "a position every scan: speeds up, holds speed, slows down, ends exactly";
     records!(In, Nothing, Net, Parts);
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {

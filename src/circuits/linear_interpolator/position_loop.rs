@@ -22,7 +22,7 @@ use crate::prelude::*;
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PositionLoop {
-    /// Its widths, by name.
+    /// Word widths, by name.
     pub widths: LoopWidths,
 }
 
@@ -37,7 +37,7 @@ signals! { for PositionLoop as c;
         pub a: Bit,
         /// Channel B of the encoder, asynchronous.
         pub b: Bit,
-        /// Feedback to 0, `lost` off.
+        /// Clears `feedback` and `lost`.
         pub clear: Bit,
         /// Position gain, LSB of the D/A converter per count, with F fraction bits.
         pub gain: U(c.widths.gain),
@@ -53,17 +53,17 @@ signals! { for PositionLoop as c;
     }
     /// Output ports.
     pub struct Net {
-        /// Speed reference N_ref, the word of the D/A converter.
+        /// Speed reference N_ref: word for the D/A converter.
         pub speed_ref: I(c.widths.converter) as Analog,
         /// The reference is at its limit.
         pub saturated: Bit,
         /// Command − feedback in counts.
         pub deviation: I(c.widths.position) as Analog,
-        /// The amount of the deviation is at most the window.
+        /// The magnitude of the deviation is at most the window.
         pub in_position: Bit,
         /// Position of the motor in counts.
         pub feedback: I(c.widths.position) as Analog,
-        /// The encoder was too fast since `clear`: the feedback is wrong.
+        /// Both encoder channels have changed at once: the feedback is wrong; cleared by `clear`.
         pub lost: Bit,
     }
 }

@@ -14,11 +14,11 @@
 //! The master axis is either the one with the greater distance (claim 2), or always the same one
 //! (claim 1).
 //!
-//! Departures: a cycle starts from the present command, not from the target before, so that an
-//! aborted cycle has no effect on the next. A target farther away than the range of a signed word
-//! of the position's width is refused. A scan that comes before the last one is computed is
-//! skipped and flagged. Where a fixed master axis does not move, the other one leads: its own
-//! distance would be a division by zero.
+//! Departures: a cycle starts from the present command, not from the previous target, so an aborted
+//! cycle has no effect on the next. A target whose distance exceeds a signed word of the position's
+//! width is refused. A scan that comes before the last one is computed is skipped and flagged.
+//! Where a fixed master axis does not move, the other one leads, because the integrator would
+//! divide by 0.
 
 use crate::hdl::Registers;
 use crate::prelude::*;
@@ -78,7 +78,8 @@ impl MasterAxis {
     }
 }
 
-/// Sequencer. `start` is high four ticks after a target is available, `advance` a tick after `scan`.
+/// Sequencer. `start` is high four ticks after a target is available, `advance` one tick after
+/// `scan`.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sequencer {
@@ -93,29 +94,29 @@ signals! { for Sequencer as c;
     pub struct In {
         /// A scan begins.
         pub scan: Bit,
-        /// No new cycle begins.
+        /// Blocks the start of a new cycle.
         pub hold: Bit,
-        /// Ends the cycle that runs: the axes slow down along the line.
+        /// Ends the running cycle; the axes slow down along the line.
         pub halt: Bit,
-        /// Between two cycles: the commands become 0, the flags go.
+        /// Sets the commands to 0 and clears the flags; effective only between two cycles.
         pub clear: Bit,
-        /// A target waits.
+        /// A target is waiting.
         pub available: Bit,
-        /// X of the target, from the tick after `pop` on.
+        /// X of the target in counts; valid from the tick after `pop`.
         pub target_x: I(c.position),
-        /// Y of it.
+        /// Y of the target in counts; valid from the tick after `pop`.
         pub target_y: I(c.position),
-        /// Position command of X.
+        /// Position command of X, in counts.
         pub x: I(c.position),
-        /// Position command of Y.
+        /// Position command of Y, in counts.
         pub y: I(c.position),
         /// The position pattern is running.
         pub pattern_active: Bit,
-        /// The position pattern takes an `advance`.
+        /// The position pattern is ready for `advance`.
         pub pattern_ready: Bit,
         /// The position pattern has a new position.
         pub pattern_valid: Bit,
-        /// The integrator divides.
+        /// The integrator is dividing.
         pub integrating: Bit,
         /// The integrator has a new integral: the commands of a scan are complete.
         pub load: Bit,
@@ -124,40 +125,40 @@ signals! { for Sequencer as c;
     pub struct Reg {
         /// State of the sequence.
         pub state: U(3) as States(STATES) = 0,
-        /// The next target is wanted.
+        /// Requests the next target.
         pub pop: Bit = 0,
         /// A cycle begins.
         pub start: Bit = 0,
         /// Starts the computation of a scan's commands.
         pub advance: Bit = 0,
-        /// Distance in X.
+        /// Signed distance in X.
         pub delta_x: I(c.position) = 0,
-        /// Distance in Y.
+        /// Signed distance in Y.
         pub delta_y: I(c.position) = 0,
-        /// A distance does not fit its word.
+        /// A distance exceeds the range of its word.
         too_far: Bit = 0,
         /// Y is the master axis (Fig. 6).
         pub swapped: Bit = 0,
-        /// Position of the master axis at the start.
+        /// Position of the master axis at the start of the cycle.
         pub master_from: I(c.position) = 0,
-        /// Position of the slave axis at the start.
+        /// Position of the slave axis at the start of the cycle.
         pub slave_from: I(c.position) = 0,
-        /// Δ of the master axis.
+        /// Signed distance of the master axis.
         pub master: I(c.position) = 0,
-        /// Δ of the slave axis.
+        /// Signed distance of the slave axis.
         pub slave: I(c.position) = 0,
         /// The commands of a scan are being computed.
         computing: Bit = 0,
-        /// A scan came too early since the flags were cleared.
+        /// A scan has come before the previous one was computed; cleared by `clear`.
         pub late: Bit = 0,
-        /// A target was too far since the flags were cleared.
+        /// A target was too far away and has been refused; cleared by `clear`.
         pub refused: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A target is taken.
+        /// A target is accepted.
         takes: Bit,
-        /// The commands of a scan are begun.
+        /// The computation of a scan's commands begins.
         begins: Bit,
         /// Nothing is being computed.
         quiet: Bit,
@@ -171,15 +172,15 @@ signals! { for Sequencer as c;
         far_y: Bit,
         /// The target is refused.
         refuses: Bit,
-        /// The cycle in preparation is aborted.
+        /// The cycle in preparation is abandoned.
         ends: Bit,
         /// The cycle is over.
         over: Bit,
-        /// A scan comes too early.
+        /// A scan comes before the previous one is computed.
         early: Bit,
-        /// `clear` is taken.
+        /// `clear` takes effect in this tick.
         pub home: Bit,
-        /// A cycle runs or is prepared.
+        /// A cycle runs or is being prepared.
         pub busy: Bit,
     }
 }

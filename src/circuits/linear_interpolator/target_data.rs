@@ -8,9 +8,9 @@
 //!                          └─────────────┘
 //! ```
 //!
-//! Departure: the text has the target positions ready in a table; here they come from a control
-//! computer through a buffer, so a job may be of any length, and each brings its speed and its
-//! times along.
+//! Departure: the text has the target positions ready in a table. Here they come from a control
+//! computer through a buffer, so a job can have any length, and each target brings its own speed
+//! and times.
 
 use super::Widths;
 use crate::prelude::*;
@@ -34,7 +34,7 @@ const DECELERATIONS: &[&str] = &["decelerations", "decel_y"];
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TargetData {
-    /// Its widths, by name.
+    /// Word widths, by name.
     pub widths: Widths,
     /// Number of settings of a target: 1 for both axes, or 2, X's and Y's.
     pub settings: usize,
@@ -43,8 +43,8 @@ pub struct TargetData {
 signals! { for TargetData as c;
     /// Settings of a target: one of each for both axes, or X's and Y's.
     pub struct Settings {
-        /// Steady speed of the move: counts per scan, with `T` bits of fraction; one of the master
-        /// axis, or one of each axis.
+        /// Steady speed of the move, in counts per scan with `T` fraction bits; one for the master
+        /// axis, or one for each axis.
         pub speed: [U(c.widths.position); c.settings] as Elements(SPEED),
         /// Acceleration time in scans.
         pub acceleration_time: [U(c.widths.time); c.settings] as Elements(ACCELERATION_TIME),
@@ -53,15 +53,15 @@ signals! { for TargetData as c;
     }
     /// Input ports.
     pub struct In {
-        /// A target is given; not taken unless `ready`.
+        /// Gives a target; ignored unless `ready` or `flush`.
         pub push: Bit,
-        /// Its X.
+        /// X of the target, in counts.
         pub x: I(c.widths.position),
-        /// Its Y.
+        /// Y of the target, in counts.
         pub y: I(c.widths.position),
-        /// Speed and times of the move to it.
+        /// Speed and times of the move to the target.
         pub settings: Settings(c) as Flat,
-        /// The next target comes to the outputs, if there is one.
+        /// Moves the next target to the outputs, if there is one.
         pub pop: Bit,
         /// Discards the targets pushed before this tick.
         pub flush: Bit,
@@ -72,15 +72,15 @@ signals! { for TargetData as c;
         write_address: U(c.widths.address) as Hex = 0,
         /// Read address of the next target.
         read_address: U(c.widths.address) as Hex = 0,
-        /// X of the target that was popped last.
+        /// X of the target popped last.
         pub target_x: I(c.widths.position) = 0,
-        /// Y of it.
+        /// Y of the target popped last.
         pub target_y: I(c.widths.position) = 0,
-        /// Its speed.
+        /// Speed of the move to the target popped last.
         pub target_speed: [U(c.widths.position); c.settings] as Elements(TARGET_SPEED),
-        /// Its acceleration time.
+        /// Acceleration time of that move, in scans.
         pub target_acceleration: [U(c.widths.time); c.settings] as Elements(TARGET_ACCELERATION),
-        /// Its deceleration time.
+        /// Deceleration time of that move, in scans.
         pub target_deceleration: [U(c.widths.time); c.settings] as Elements(TARGET_DECELERATION),
         /// Buffer of X.
         xs: Ram(c.widths.address, c.widths.position),
@@ -97,20 +97,20 @@ signals! { for TargetData as c;
     }
     /// Nets.
     pub struct Net {
-        /// A push is taken.
+        /// Ready: a target is accepted.
         pub ready: Bit,
-        /// There is a target to be popped.
+        /// A target is waiting.
         pub available: Bit,
-        /// A push is taken in this tick.
+        /// A target is accepted in this tick.
         take: Bit,
-        /// A target comes to the outputs with this tick.
+        /// A target moves to the outputs at the end of this tick.
         bring: Bit,
     }
 }
 
 impl Circuit for TargetData {
     const NAME: &'static str = "target_data";
-    const ABOUT: &'static str = "buffer of the positioning cycles to come";
+    const ABOUT: &'static str = "buffer of the next positioning cycles";
     records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {

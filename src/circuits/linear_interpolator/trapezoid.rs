@@ -16,7 +16,7 @@
 //! sum of all weights. The remainder of the division is carried into the next scan, so that
 //! nothing is lost.
 //!
-//! The speed has a fraction, so that a slow one is not rounded to whole counts a scan.
+//! The speed has fraction bits, so a slow speed is not rounded to whole counts per scan.
 //!
 //! Departures: the text says nothing of the discrete form. Every cycle ends exactly at its target;
 //! a short one keeps its times and has a lower peak; times of 0 count as 1, a speed of 0 as the
@@ -69,20 +69,21 @@ impl Trapezoid {
 signals! { for (Trapezoid, PatternGenerator) as c;
     /// A cycle, and its scans.
     pub struct Cycle {
-        /// Starts a cycle, unless one is running; the ports down to `deceleration_time` are taken
-        /// with it.
+        /// Starts a cycle; ignored while one is running. The ports `from` to `deceleration_time`
+        /// are sampled with it.
         pub start: Bit,
         /// Position at the start.
         pub from: I(c.position),
-        /// Distance to go; with 0 there is no cycle.
+        /// Signed distance to go; with 0 no cycle begins.
         pub distance: I(c.position),
-        /// V: greatest speed, in counts a scan with `T` bits of fraction; 0 counts as the least.
+        /// V: greatest speed, in counts per scan with `T` fraction bits; 0 counts as the least
+        /// speed.
         pub speed: U(c.position),
-        /// Ta in scans; 0 counts as 1.
+        /// Ta: acceleration time in scans; 0 counts as 1.
         pub acceleration_time: U(c.time),
-        /// Td in scans; 0 counts as 1.
+        /// Td: deceleration time in scans; 0 counts as 1.
         pub deceleration_time: U(c.time),
-        /// Makes the next position, if `ready`.
+        /// Computes the next position; ignored unless `ready`.
         pub advance: Bit,
         /// Ends the cycle: immediately before its first scan, later by a ramp down.
         pub halt: Bit,
@@ -94,11 +95,11 @@ signals! { for Trapezoid as c;
     pub struct In {
         /// A cycle, and its scans.
         pub cycle: Cycle(c) as Flat,
-        /// The multiplier-divider has its result.
+        /// The multiplier-divider has a result.
         pub done: Bit,
-        /// Its quotient, or its product.
+        /// Quotient or product from the multiplier-divider.
         pub quotient: U(c.word()),
-        /// Its remainder; 0 after a product.
+        /// Remainder from the multiplier-divider; 0 after a product.
         pub remainder: U(c.word()),
     }
     /// Flip-flops.
@@ -111,76 +112,76 @@ signals! { for Trapezoid as c;
         request: Bit = 0,
         /// The multiplier-divider is running, or shows `done`.
         under_way: Bit = 0,
-        /// Length |Δ| of the cycle.
+        /// Magnitude |Δ| of the cycle's distance.
         length: U(c.position) = 0,
-        /// The cycle goes down.
+        /// Direction of the cycle; high counts down.
         backward: Bit = 0,
-        /// V: greatest speed, with `T` bits of fraction.
+        /// V: greatest speed, in counts per scan with `T` fraction bits.
         speed_limit: U(c.position) = 0,
-        /// Ta in scans.
+        /// Ta: acceleration time in scans.
         ramp_up: U(c.time) = 0,
-        /// Td in scans.
+        /// Td: deceleration time in scans.
         ramp_down: U(c.time) = 0,
-        /// Tc: remaining scans of steady speed.
+        /// Tc: remaining scans at steady speed.
         steady_scans: U(c.position) = 0,
         /// Ta·Td: level of the steady speed.
         peak: U(c.multiplier()) = 0,
-        /// W: all weights together.
+        /// W: sum of all weights.
         total: U(c.word()) = 0,
-        /// Speed at the beginning of the next scan, in units of 2Δ/W a scan.
+        /// Speed at the start of the next scan, in units of 2Δ/W per scan.
         level: U(c.multiplier()) as Analog = 0,
-        /// x(n): the position.
+        /// x(n): position, in counts.
         pub position: I(c.position) as Analog = 0,
         /// A new position is at `position` from this tick on.
         pub valid: Bit = 0,
-        /// `advance` is taken.
+        /// Ready for `advance`.
         pub ready: Bit = 0,
         /// A cycle is running.
         pub active: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A start is taken.
+        /// A start is accepted.
         take: Bit,
         /// The start begins a cycle.
         begins: Bit,
-        /// An abort ends the cycle with this tick.
+        /// An abort ends the cycle at the end of this tick.
         drop: Bit,
         /// A scan begins.
         scans: Bit,
-        /// The multiplier-divider begins.
+        /// Starts the multiplier-divider.
         pub compute: Bit,
         /// The multiplier-divider has the last requested result, and a cycle needs it.
         result: Bit,
-        /// Only the product is wanted.
+        /// Requests a product without a division.
         pub product_only: Bit,
         /// First factor.
         pub multiplicand: U(c.word()),
         /// Second factor.
         pub multiplier: U(c.multiplier()),
-        /// Added to the product.
+        /// Addend of the product.
         pub addend: U(c.word()),
         /// Divisor of the sum.
         pub divisor: U(c.word()),
         /// Ta + Td.
         times: U(c.word()),
-        /// 2|Δ|, with the fraction of V.
+        /// 2|Δ|, with the fraction bits of V.
         length_twice: U(c.word()),
         /// 2V.
         speed_twice: U(c.word()),
-        /// Tc would be 2^(P−1) or more.
+        /// Tc would be 2^(P−1) or more: it is limited.
         endless: Bit,
-        /// Distance of the scan.
+        /// Distance of the scan, in counts.
         share: I(c.position),
-        /// Requests the next step of the preparation.
+        /// The next step of the preparation is requested.
         prepares: Bit,
-        /// 2|Δ| − V(Ta + Td) + 2V − 1, or 0 where the ramps alone are too long: Tc times 2V.
+        /// Tc times 2V: 2|Δ| − V(Ta + Td) + 2V − 1, or 0 where the ramps alone are too long.
         excess: U(c.word()),
         /// Speed at the end of the scan.
         next_level: U(c.multiplier()),
         /// Share of the scan in the distance, in units of Δ/W.
         weight: U(c.multiplier()),
-        /// Scans of steady speed after this one.
+        /// Remaining scans at steady speed after this one.
         left: U(c.position),
         /// Phase of the scan after this one.
         next_phase: U(2) as States(PHASES),
@@ -192,7 +193,7 @@ signals! { for Trapezoid as c;
 impl Circuit for Trapezoid {
     const NAME: &'static str = "trapezoid";
     const ABOUT: &'static str =
-        "prepares a positioning cycle and makes its positions, scan by scan";
+        "prepares a positioning cycle and computes its positions, scan by scan";
     records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {

@@ -1,18 +1,18 @@
-//! Widths that several circuits of the linear interpolator share, in bits, with the letters that the
-//! ports' descriptions have for them.
+//! Widths that several circuits of the linear interpolator share, in bits, with the letters that
+//! stand for them in the descriptions of ports.
 
 use super::PatternGenerator;
 
-/// Widths of the circuits that make position commands.
+/// Widths of the circuits that compute position commands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Widths {
-    /// An address in the buffer of targets, which holds 2^`address` − 1 of them.
+    /// Addresses of the buffer of targets, which holds 2^`address` − 1 targets.
     pub address: usize,
-    /// A position, P.
+    /// P: positions.
     pub position: usize,
-    /// An acceleration or deceleration time, T, fewer than a position has; as many are the fraction
-    /// of a speed.
+    /// T: acceleration and deceleration times, narrower than positions. Speeds have as many
+    /// fraction bits.
     pub time: usize,
 }
 
@@ -43,13 +43,13 @@ impl Default for Widths {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoopWidths {
-    /// A position.
+    /// Positions.
     pub position: usize,
-    /// The gain.
+    /// Position gain.
     pub gain: usize,
-    /// The gain's fraction, F, a part of it.
+    /// F: fraction bits of the gain.
     pub fraction: usize,
-    /// The D/A converter, D.
+    /// D: words of the D/A converter.
     pub converter: usize,
 }
 

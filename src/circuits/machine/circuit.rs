@@ -1,4 +1,4 @@
-//! The machine: the circuits that the control computer of an X-Y plotter is connected to.
+//! The machine: all circuits that the control computer of an X-Y plotter is connected to.
 //!
 //! ```text
 //!                          ┌─────────┐
@@ -25,15 +25,15 @@ use crate::prelude::*;
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Machine {
-    /// Pulses of the step motors.
+    /// Step pulses of the step motors.
     pub pulse_interpolator: Group,
     /// Commands of the servos on lines.
     pub linear_interpolator: LinearInterpolator,
     /// Commands of the servos on arcs.
     pub arc_generator: ArcGenerator,
-    /// Corrects the commands, drives the servos.
+    /// Correction of the commands, and the servos.
     pub trajectory_controller: TrajectoryController,
-    /// Lifts and lowers the pen.
+    /// Control of the pen lift.
     pub lead_angle: Compensator,
 }
 
@@ -88,88 +88,88 @@ impl Machine {
 signals! { for Machine as c;
     /// Input ports: the control computer, the encoders.
     pub struct In {
-        /// Ends every movement where it is.
+        /// Ends every movement at once.
         pub halt: Bit,
-        /// Rates of all circuits.
+        /// Periods of all enables.
         pub rates: Rates(&c.enables()),
-        /// To the pulse interpolator.
+        /// Inputs of the pulse interpolator.
         pub pulse: Pulse(&c.pulse_interpolator),
-        /// To the linear interpolator.
+        /// Inputs of the linear interpolator.
         pub lines: Lines(&c.linear_interpolator),
-        /// To the arc generator.
+        /// Inputs of the arc generator.
         pub arcs: Segments(&c.arc_generator.widths),
-        /// To the trajectory controller.
+        /// Inputs of the trajectory controller.
         pub trajectory: Trajectory(&c.trajectory_controller),
-        /// To the lead-angle compensator.
+        /// Inputs of the lead-angle compensator.
         pub lift: Lift(&c.lead_angle),
     }
     /// The circuits.
     pub struct Parts {
-        /// Unit time, scan, CK, Ts.
+        /// Counters of unit time, scan, CK and Ts.
         pub enables: Part<Enables>(c.enables()),
-        /// Pulses of the step motors.
+        /// Step pulses of the step motors.
         pub pulse_interpolator: Part<Group>(c.pulse_interpolator.clone()),
         /// Commands of the servos on lines.
         pub linear_interpolator: Part<LinearInterpolator>(c.linear_interpolator.clone()),
         /// Commands of the servos on arcs.
         pub arc_generator: Part<ArcGenerator>(c.arc_generator.clone()),
-        /// Both as one.
+        /// Sum of both commands.
         pub command_join: Part<CommandJoin>(c.command_join()),
-        /// Corrects the commands, drives the servos.
+        /// Correction of the commands, and the servos.
         pub trajectory_controller: Part<TrajectoryController>(c.trajectory_controller.clone()),
-        /// Lifts and lowers the pen.
+        /// Control of the pen lift.
         pub lead_angle: Part<Compensator>(c.lead_angle.clone()),
     }
     /// Output ports.
     pub struct Net {
-        /// Step pulses of X.
+        /// Step pulses of X; a step is a rising edge.
         pub step_x: Bit,
-        /// Step pulses of Y.
+        /// Step pulses of Y; a step is a rising edge.
         pub step_y: Bit,
         /// Direction of X; high counts down.
         pub dir_x: Bit,
-        /// Direction of Y.
+        /// Direction of Y; high counts down.
         pub dir_y: Bit,
-        /// A free half of the pattern memory awaits a command.
+        /// Ready: the pulse interpolator accepts a command without `now`.
         pub pulse_ready: Bit,
-        /// A pattern runs.
+        /// A pattern is running.
         pub pulse_busy: Bit,
-        /// Position command of X in counts.
+        /// Position command of X, in counts.
         pub counts_x: I(c.command_join().line) as Analog,
-        /// Position command of Y.
+        /// Position command of Y, in counts.
         pub counts_y: I(c.command_join().line) as Analog,
-        /// A target is taken.
+        /// Ready: a target is accepted.
         pub lines_ready: Bit,
         /// A line is running.
         pub lines_busy: Bit,
-        /// There is a free record of an arc.
+        /// A record of an arc is free to be written.
         pub arcs_ready: Bit,
         /// An arc is running.
         pub arcs_busy: Bit,
-        /// There is a free record of the profile.
+        /// A record of the profile is free to be written.
         pub profile_ready: Bit,
         /// The profile is running.
         pub profile_busy: Bit,
-        /// Torque of X.
+        /// Torque command of X.
         pub torque_x: I(c.trajectory_controller.widths.torque) as Analog,
-        /// Torque of Y.
+        /// Torque command of Y.
         pub torque_y: I(c.trajectory_controller.widths.torque) as Analog,
-        /// Position of the motor of X in counts.
+        /// Position of the motor of X, in counts.
         pub position_x: I(c.trajectory_controller.widths.position) as Analog,
-        /// Position of the motor of Y.
+        /// Position of the motor of Y, in counts.
         pub position_y: I(c.trajectory_controller.widths.position) as Analog,
-        /// The pen lift's motor is on.
+        /// The motor of the pen lift is on.
         pub drive: Bit,
-        /// The pen lift's motor turns downwards.
+        /// Direction of the pen lift's motor; high counts down.
         pub reverse: Bit,
-        /// Its speed.
+        /// Speed command of the pen lift's motor.
         pub speed: U(c.lead_angle.widths.speed),
-        /// Its brake.
+        /// Brake of the pen lift.
         pub brake: Bit,
-        /// The pen lift moves.
+        /// A step of the pen lift is running.
         pub lift_busy: Bit,
-        /// Something came too late, or cannot be counted: a scan, a sampling time, an edge of an
-        /// encoder.
+        /// A scan, a sampling time or a segment came too late, a target was refused, or an encoder
+        /// edge was lost.
         pub fault: Bit,
     }
 }

@@ -1,4 +1,4 @@
-//! Command join: the position command of an X-Y machine whose lines come from one circuit and
+//! Command join: adds the position commands of an X-Y machine whose lines come from one circuit and
 //! whose arcs come from another.
 //!
 //! ```text
@@ -9,13 +9,14 @@
 //!                    └──────────────┘
 //! ```
 //!
-//! Each of the two counts only its own distance and rests while the other moves, so the sum is the
-//! whole path. It is sampled once in a sampling time, so a circuit that computes with it in
+//! Each of the two circuits counts only its own distance and rests while the other moves, so the
+//! sum is the whole path. The sum is sampled once per sampling time, so a circuit that computes
+//! with it in between sees a constant value.
 //! between sees a constant value.
 
 use crate::prelude::*;
 
-/// Join of two distances. A command shows one tick after `take`.
+/// Join of two distances. A command is valid one tick after `take`.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CommandJoin {
@@ -28,29 +29,29 @@ pub struct CommandJoin {
 signals! { for CommandJoin as c;
     /// Input ports.
     pub struct In {
-        /// The sum is taken.
+        /// Loads the sums into the commands.
         pub take: Bit,
-        /// Distance on lines, X, in counts.
+        /// Distance in X on lines, in counts.
         pub line_x: I(c.line),
-        /// Distance on lines, Y, in counts.
+        /// Distance in Y on lines, in counts.
         pub line_y: I(c.line),
-        /// Distance on arcs, X, in counts.
+        /// Distance in X on arcs, in counts.
         pub arc_x: I(c.arc),
-        /// Distance on arcs, Y, in counts.
+        /// Distance in Y on arcs, in counts.
         pub arc_y: I(c.arc),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// Position command of X in counts.
+        /// Position command of X, in counts.
         pub x: I(c.line) as Analog = 0,
-        /// Position command of Y.
+        /// Position command of Y, in counts.
         pub y: I(c.line) as Analog = 0,
     }
     /// Nets.
     pub struct Net {
-        /// Sum of both distances, X, in this tick.
+        /// Sum of both distances in X, in this tick.
         pub counts_x: I(c.line) as Analog,
-        /// Sum of both distances, Y, in this tick.
+        /// Sum of both distances in Y, in this tick.
         pub counts_y: I(c.line) as Analog,
     }
 }

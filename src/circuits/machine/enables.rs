@@ -1,4 +1,4 @@
-//! Enables: the block of counters that every slower rate of the machine comes from.
+//! Enables: the counters from which all slower rates of the machine come.
 //!
 //! ```text
 //!                  ┌─────────┐
@@ -9,14 +9,13 @@
 //!                  └─────────┘
 //! ```
 //!
-//! A circuit with an enable counter of its own is led by its period port: a period of 0 ends its
-//! period in this tick, one of all ones never does before ours.
+//! A circuit with its own enable counter is controlled through its period port: a period of 0 ends
+//! the counter's period in this tick, and a period of all ones does not end it before that.
 
 use crate::circuits::blocks::{EnableCounter, enable_counter};
 use crate::prelude::*;
 
-/// Four enable counters. Periods of as many ticks as a word holds, in any ratio; all begin at
-/// power-on.
+/// Four enable counters, with periods in any ratio. All periods begin at power-on.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Enables {
@@ -39,13 +38,13 @@ impl Default for Enables {
 signals! { for Enables as c;
     /// Input ports.
     pub struct In {
-        /// T: ticks of a unit time; 0 counts as 1, as in the others.
+        /// T: unit time in ticks; 0 counts as 1.
         pub unit_period: U(c.width),
-        /// Ticks of a scan.
+        /// Scan period in ticks; 0 counts as 1.
         pub scan_period: U(c.width),
-        /// Ticks of CK.
+        /// Period of CK in ticks; 0 counts as 1.
         pub ck_period: U(c.width),
-        /// Ts: ticks of a sampling time.
+        /// Ts: sampling time in ticks; 0 counts as 1.
         pub sample_period: U(c.width),
     }
     /// The counters.
@@ -65,13 +64,13 @@ signals! { for Enables as c;
         pub unit: Bit,
         /// A scan begins.
         pub scan: Bit,
-        /// CK.
+        /// CK: a sample is taken.
         pub ck: Bit,
         /// A sampling time begins.
         pub sample: Bit,
-        /// Period of a counter that CK leads.
+        /// Value for the period port of a counter that follows CK.
         pub ck_led: U(c.width),
-        /// Period of a counter that Ts leads.
+        /// Value for the period port of a counter that follows Ts.
         pub sample_led: U(c.width),
     }
 }

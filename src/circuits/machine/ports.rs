@@ -22,101 +22,103 @@ const INERTIA: &[&str] = &["inertia_x", "inertia_y"];
 const LIMIT: &[&str] = &["limit_x", "limit_y"];
 
 signals! { for Group as c;
-    /// To the pulse interpolator; see [`group::In`](crate::circuits::pulse_interpolator::group::In).
+    /// Inputs of the pulse interpolator; see
+    /// [`group::In`](crate::circuits::pulse_interpolator::group::In).
     pub struct Pulse {
-        /// A pattern is given, as the next.
+        /// Gives a command for a pattern.
         pub command: Bit,
-        /// First address of it.
+        /// First address of the command's pattern.
         pub base: U(c.widths.address) as Hex,
-        /// Last address of it.
+        /// Last address of the command's pattern.
         pub last: U(c.widths.address) as Hex,
-        /// High: starts the pattern; low: stops the running one.
+        /// High: the command starts a pattern; low: it stops the running one.
         pub run: Bit,
         /// High: the command is taken at the next end of a unit time; low: at the end of the
         /// running pattern.
         pub now: Bit,
-        /// Writes the words of all axes.
+        /// Port through which the words of all axes are written.
         pub port: WritePort(&c.widths) as Flat,
     }
 }
 
 signals! { for LinearInterpolator as c;
-    /// To the linear interpolator; see
+    /// Inputs of the linear interpolator; see
     /// [`interpolator::In`](crate::circuits::linear_interpolator::interpolator::In).
     pub struct Lines {
-        /// A target is given.
+        /// Gives a target; ignored unless `lines_ready`, or with `halt`.
         pub push: Bit,
-        /// Its X in counts; arcs are not counted.
+        /// X of the target in counts, without the distance moved on arcs.
         pub target_x: I(c.widths.position),
-        /// Its Y.
+        /// Y of the target in counts, without the distance moved on arcs.
         pub target_y: I(c.widths.position),
-        /// Speed and times of the move to it.
+        /// Speed and times of the move to the target.
         pub settings: Settings(&c.targets()) as Flat,
     }
 }
 
 signals! { for TrajectoryController as c;
-    /// To the trajectory controller; see
+    /// Inputs of the trajectory controller; see
     /// [`controller::In`](crate::circuits::trajectory_controller::controller::In).
     pub struct Trajectory {
-        /// Records of the profile.
+        /// Port through which records of the profile are written.
         pub record: RecordWrite(&c.widths.data) as Flat,
-        /// Begins to move along the path.
+        /// Starts a motion along the path.
         pub start: Bit,
-        /// The path's segments.
+        /// Port through which segments of the path are written.
         pub path: PathWrite(&c.widths.point().of_axes(c.axes)) as Flat,
-        /// The path's last segment.
+        /// Number of the last segment of the path.
         pub last: U(c.widths.segment),
-        /// L: the path's length.
+        /// L: length of the path.
         pub path_end: I(c.widths.point),
         /// K1 and K2 of all models.
         pub model_gains: ModelGains(&c.widths.model()) as Flat,
-        /// Gains of the position controls.
+        /// Position gain of this axis.
         pub position_gain: [U(c.widths.servo_gain); c.axes] as Elements(POSITION_GAIN),
-        /// Proportional gains of the speed controls.
+        /// Proportional gain of the speed control of this axis.
         pub speed_gain: [U(c.widths.servo_gain); c.axes] as Elements(SPEED_GAIN),
-        /// Integral gains of the speed controls.
+        /// Integral gain of the speed control of this axis.
         pub integral_gain: [U(c.widths.servo_gain); c.axes] as Elements(INTEGRAL_GAIN),
-        /// Gains of the feed-forward.
+        /// Feed-forward gain of this axis.
         pub inertia: [U(c.widths.servo_gain); c.axes] as Elements(INERTIA),
-        /// Largest torques.
+        /// Largest torque of this axis.
         pub limit: [U(c.widths.torque); c.axes] as Elements(LIMIT),
-        /// Encoders of the motors, channel A.
+        /// Channel A of this axis' encoder.
         pub a: [Bit; c.axes] as Elements(A_NAMES),
-        /// Channel B.
+        /// Channel B of this axis' encoder.
         pub b: [Bit; c.axes] as Elements(B_NAMES),
     }
 }
 
 signals! { for Compensator as c;
-    /// To the lead-angle compensator; see
+    /// Inputs of the lead-angle compensator; see
     /// [`compensator::In`](crate::circuits::lead_angle::compensator::In).
     pub struct Lift {
-        /// Encoder of the pen lift, channel A.
+        /// Channel A of the pen lift's encoder.
         pub a: Bit,
-        /// Channel B.
+        /// Channel B of the pen lift's encoder.
         pub b: Bit,
-        /// The next step runs.
+        /// Runs the steps one after the other; when it falls, the running step is the last.
         pub run: Bit,
-        /// Times are learned.
+        /// Enables learning.
         pub learn: Bit,
-        /// The step after which step 0 comes.
+        /// Number of the last step; step 0 follows it.
         pub last_step: U(c.widths.step),
-        /// CKs without a change that are a standstill.
+        /// CKs without a change that count as a standstill; 0 counts as 1.
         pub standstill: U(c.widths.cks),
-        /// CKs from the control signal on after which a positioning is complete anyway.
+        /// CKs from the control signal after which a positioning is complete in any case; 0 counts
+        /// as 1.
         pub time_out: U(c.widths.cks),
-        /// CKs between two steps.
+        /// Pause between two steps, in CKs.
         pub rest: U(c.widths.cks),
-        /// The time that a step begins to learn with that has none.
+        /// Time from which a step without a time begins to learn, in CKs.
         pub seed: U(c.widths.time()),
-        /// A target and its speed are written.
+        /// Writes a target and its speed.
         pub write_target: Bit,
-        /// The step that is written.
+        /// Number of the step to write.
         pub write_step: U(c.widths.step),
-        /// The target that is written.
+        /// Target to write.
         pub step_target: I(c.widths.position),
-        /// The speed that is written.
+        /// Speed to write.
         pub step_speed: U(c.widths.speed),
     }
 }

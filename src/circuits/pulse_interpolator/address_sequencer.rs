@@ -11,8 +11,8 @@
 //! All changes happen at RST: the address counts up, the pattern starts again, ends, or is
 //! replaced by the waiting command.
 //!
-//! Departures: the text counts without end. Here a pattern has a last address, where it loops or
-//! stops; stopped, the address is held and no axis gets pulses. At power-on the sequencer is
+//! Departures: the text counts without end. Here a pattern has a last address, where it repeats or
+//! stops. After a stop the address is held, and no axis gets pulses. At power-on the sequencer is
 //! idle; a pattern begins at the first RST after its command.
 
 use crate::prelude::*;
@@ -31,53 +31,54 @@ pub struct AddressSequencer {
 signals! { for AddressSequencer as c;
     /// Input ports.
     pub struct In {
-        /// Last tick of the unit time.
+        /// RST: high in the last tick of the unit time.
         pub unit_rst: Bit,
-        /// A command waits.
+        /// A command is waiting.
         pub pending: Bit,
-        /// Its pattern's first address.
+        /// First address of the waiting command's pattern.
         pub pending_base: U(c.width) as Hex,
-        /// Its pattern's last address.
+        /// Last address of the waiting command's pattern.
         pub pending_last: U(c.width) as Hex,
-        /// Its pattern starts again after its last word.
+        /// The waiting command's pattern repeats after its last word.
         pub pending_cyclic: Bit,
-        /// High: starts a pattern; low: stops the running one.
+        /// High: the waiting command starts a pattern; low: it stops the running one.
         pub pending_run: Bit,
-        /// High: the command is taken at the next RST; low: at the RST that ends the pattern.
+        /// High: the waiting command is taken at the next RST; low: at the RST that ends the
+        /// running pattern.
         pub pending_now: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// State: a pattern runs or not.
+        /// State: RUN while a pattern runs.
         pub state: U(1) as States(STATES) = 0,
-        /// Address of the unit time that runs.
+        /// Address of the current unit time.
         pub address: U(c.width) as Hex = 0,
-        /// First address of the pattern that runs.
+        /// First address of the running pattern.
         base: U(c.width) as Hex = 0,
-        /// Last address of the pattern that runs.
+        /// Last address of the running pattern.
         last: U(c.width) as Hex = 0,
-        /// The pattern that runs starts again after its last word.
+        /// The running pattern repeats after its last word.
         cyclic: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// The unit time that runs is the last of its pattern.
+        /// The address is the last of the pattern.
         at_last: Bit,
-        /// The unit time is the last of its pattern, or no pattern runs.
+        /// The address is the last of the pattern, or no pattern runs.
         at_end: Bit,
-        /// The waiting command is for the next RST.
+        /// The waiting command can be taken at an RST in this tick.
         due: Bit,
-        /// The waiting command starts a pattern.
+        /// The waiting command can be taken, and starts a pattern.
         start: Bit,
-        /// Address that follows in the pattern that runs.
+        /// Next address of the running pattern.
         following: U(c.width) as Hex,
-        /// The waiting command is taken with this tick.
+        /// The waiting command is taken at the end of this tick.
         pub take: Bit,
-        /// A pattern runs in the next unit time, if this is the tick of RST.
+        /// A pattern runs in the next unit time; valid in the tick of RST.
         go_on: Bit,
-        /// Address of the next unit time.
+        /// Address of the next unit time; valid in the tick of RST.
         pub next_address: U(c.width) as Hex,
-        /// The pattern memory reads `next_address`.
+        /// The pattern memories read `next_address`.
         pub read: Bit,
         /// The next unit time has no pulses.
         pub blank: Bit,
@@ -86,7 +87,7 @@ signals! { for AddressSequencer as c;
 
 impl Circuit for AddressSequencer {
     const NAME: &'static str = "address_sequencer";
-    const ABOUT: &'static str = "read address: counts on RST, loops, stops, switches patterns";
+    const ABOUT: &'static str = "read address: counts at RST, repeats, stops, switches patterns";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

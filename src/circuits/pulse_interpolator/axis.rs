@@ -27,7 +27,7 @@ pub struct Axis {
 signals! { for Axis as c;
     /// Input ports.
     pub struct In {
-        /// Last tick of the unit time.
+        /// RST: high in the last tick of the unit time.
         pub unit_rst: Bit,
         /// Reads the word at `address` for the next unit time.
         pub read: Bit,
@@ -35,7 +35,7 @@ signals! { for Axis as c;
         pub blank: Bit,
         /// Address of the next unit time.
         pub address: U(c.memory.address) as Hex,
-        /// Writes the words of all axes.
+        /// Port through which the words of all axes are written.
         pub port: WritePort(&c.memory) as Flat,
     }
     /// The circuits inside.
@@ -54,7 +54,7 @@ signals! { for Axis as c;
     pub struct Net {
         /// Step pulses; a step is a rising edge.
         pub step: Bit,
-        /// Direction; high counts down. Changes only with the first tick of a unit time.
+        /// Direction; high counts down. Changes only in the first tick of a unit time.
         pub dir: Bit,
     }
 }

@@ -1,5 +1,6 @@
-//! Arcs of the conventional device (¶0003–0004): the amount of motion of every unit time from the
-//! parameters of an arc, as moves of one unit time for the [motor controller](super::motor_controller).
+//! Arcs of the conventional device (¶0003–0004): computes the steps of every unit time from the
+//! parameters of an arc, and passes them to the [motor controller](super::motor_controller) as
+//! moves of one unit time.
 //!
 //! ```text
 //!                       ┌───────────────────────┐
@@ -13,9 +14,9 @@
 //!                       └───────────────────────┘
 //! ```
 //!
-//! An arc turns the first two axes around a centre, from its start angle on, by the same angle in
-//! every unit time. The amounts are the differences of rounded points: they add up to the distance
-//! from the first rounded point to the last, and no rounding is lost or doubled.
+//! An arc moves the first two axes around a centre, from its start angle on, by the same angle in
+//! every unit time. The steps of a unit time are the difference of two rounded points, so rounding
+//! errors do not add up.
 
 use super::motor_controller::{MotorController, Move};
 use crate::circuits::blocks::Cordic;
@@ -64,87 +65,86 @@ impl CircularInterpolator {
 }
 
 signals! { for CircularInterpolator as c;
-    /// An arc, in place of the steps of a move; its unit times and T are those of the move.
+    /// Arc in place of the steps of a move; number of unit times and T are those of the move.
     pub struct ArcMove {
         /// The move is an arc.
         pub circular: Bit,
-        /// Its radius divided by the gain of the CORDIC, in units of 2^−G step.
+        /// Radius of the arc divided by the gain of the CORDIC, in units of 2^−G step.
         pub radius: U(c.radius()),
         /// Start angle, in units of 2^−H turn.
         pub angle: U(c.angle),
-        /// Rotation in a unit time, in units of 2^−H turn; above half a turn it is a turn
+        /// Rotation per unit time, in units of 2^−H turn; values above half a turn rotate
         /// backwards.
         pub turn: U(c.angle),
     }
     /// Input ports.
     pub struct In {
-        /// The move that is given; with 0 unit times it is dropped.
+        /// Move from the computer; a move of 0 unit times is dropped.
         pub order: Move(&c.controller) as Flat,
-        /// Parameters of the move as an arc.
+        /// Parameters of the move if it is an arc.
         pub arc: ArcMove(c) as Flat,
-        /// A move waits in the controller.
+        /// A move is waiting in the motor controller.
         pub pending: Bit,
-        /// The point of the CORDIC is valid.
+        /// The CORDIC has a point.
         pub done: Bit,
-        /// Its first coordinate, in units of 2^−G step.
+        /// First coordinate of the point, in units of 2^−G step.
         pub along: I(c.radius() + 2),
-        /// Its second.
+        /// Second coordinate of the point, in units of 2^−G step.
         pub across: I(c.radius() + 2),
     }
     /// Flip-flops.
     pub struct Reg {
         /// State of the sequence.
         state: U(2) as States(STATES) = 0,
-        /// The point is the one where the arc begins.
+        /// The point being computed is the start of the arc.
         first: Bit = 0,
-        /// Remaining unit times.
+        /// Remaining unit times of the arc.
         left: U(c.controller.widths.units) = 0,
         /// T of the arc, in ticks.
         held_period: U(c.controller.widths.period) = 0,
-        /// The radius, as the CORDIC takes it.
+        /// Radius for the CORDIC, in units of 2^−G step.
         pub wide_radius: I(c.radius() + 2) = 0,
-        /// The angle of the point.
+        /// Angle of the point being computed, in units of 2^−H turn.
         pub place: U(c.angle) = 0,
-        /// Rotation in a unit time.
+        /// Rotation per unit time, in units of 2^−H turn.
         held_turn: U(c.angle) = 0,
-        /// The rounded point before, in steps.
+        /// First coordinate of the previous point, in whole steps.
         last_along: I(c.controller.widths.distance + 1) = 0,
-        /// Its second coordinate.
+        /// Second coordinate of the previous point, in whole steps.
         last_across: I(c.controller.widths.distance + 1) = 0,
-        /// The CORDIC begins.
+        /// Starts the CORDIC.
         pub start: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A move would be accepted.
+        /// Ready: a move is accepted.
         pub idle: Bit,
         /// An arc begins.
         begins: Bit,
-        /// The controller takes the move of a unit time.
+        /// The motor controller accepts the move of one unit time.
         given: Bit,
-        /// The point arrives.
+        /// The CORDIC delivers a point.
         arrives: Bit,
-        /// The point is kept, for the difference to the next.
+        /// The rounded point is stored, for the difference to the next one.
         kept: Bit,
         /// Starts the CORDIC for the next point.
         again: Bit,
-        /// The first coordinate and half a step, in whole steps.
+        /// First coordinate plus half a step, rounded down to whole steps.
         raised_along: I(c.radius() + 2),
-        /// The second coordinate and half a step, in whole steps.
+        /// Second coordinate plus half a step, rounded down to whole steps.
         raised_across: I(c.radius() + 2),
-        /// The point in whole steps, a half upwards.
+        /// First coordinate of the point, rounded to whole steps, halves up.
         rounded_along: I(c.controller.widths.distance + 1),
-        /// Its second coordinate.
+        /// Second coordinate of the point, rounded to whole steps, halves up.
         rounded_across: I(c.controller.widths.distance + 1),
-        /// Move for the controller.
+        /// Move for the motor controller.
         pub next_order: Move(&c.controller),
     }
 }
 
 impl Circuit for CircularInterpolator {
     const NAME: &'static str = "circular_interpolator";
-    const ABOUT: &'static str =
-        "conventional: the amounts of an arc's unit times, from its parameters";
+    const ABOUT: &'static str = "conventional: steps of every unit time of an arc";
     records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {

@@ -1,4 +1,4 @@
-//! Command port: where the control computer 2 leaves its next command (¶0018, ¶0026).
+//! Command port: holds the next command of the control computer 2 (¶0018, ¶0026).
 //!
 //! ```text
 //!                ┌──────────────┐
@@ -10,9 +10,10 @@
 //!                └──────────────┘
 //! ```
 //!
-//! One command waits until the address sequencer takes it. A command is accepted in a tick in
-//! which the port is ready; one with `now` is always accepted and replaces the one that waits. A
-//! command can be taken from the next tick on: one given in the tick of RST is for the RST after.
+//! One command waits until the address sequencer takes it. The port accepts a command in every tick
+//! in which it is ready. A command with `now` is always accepted and replaces the waiting one. A
+//! command can be taken from the next tick on: one given in the tick of RST takes effect at the RST
+//! after.
 //!
 //! Departures: the text says only that the read address is switched by command. With power-on
 //! contents the port starts a pattern without a command: the free-running operation of ¶0032.
@@ -42,43 +43,45 @@ impl CommandPort {
 signals! { for CommandPort as c;
     /// Input ports.
     pub struct In {
-        /// A command is given.
+        /// Gives a command: `base` to `period` are valid.
         pub valid: Bit,
         /// First address of the pattern.
         pub base: U(c.address) as Hex,
         /// Last address of the pattern.
         pub last: U(c.address) as Hex,
-        /// The pattern starts again after its last word.
+        /// The pattern repeats after its last word.
         pub cyclic: Bit,
-        /// Starts a pattern; low: stops the one that runs.
+        /// High: the command starts a pattern; low: it stops the running one.
         pub run: Bit,
-        /// At the next RST; low: at the RST that ends the pattern that runs.
+        /// High: the command is taken at the next RST; low: at the RST that ends the running
+        /// pattern.
         pub now: Bit,
-        /// Unit time from that RST on, in ticks.
+        /// Unit time in ticks, in force from the RST that takes the command.
         pub period: U(c.period),
-        /// The waiting command is taken with this tick.
+        /// The waiting command is taken at the end of this tick.
         pub take: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// A command waits.
+        /// A command is waiting.
         pub pending: Bit = c.free_running.is_some(),
-        /// First address of its pattern.
+        /// First address of the waiting command's pattern.
         pub pending_base: U(c.address) as Hex = c.pattern().base,
-        /// Last address of its pattern.
+        /// Last address of the waiting command's pattern.
         pub pending_last: U(c.address) as Hex = c.pattern().last,
-        /// Its pattern starts again after its last word.
+        /// The waiting command's pattern repeats after its last word.
         pub pending_cyclic: Bit = c.pattern().cyclic,
-        /// The command starts a pattern.
+        /// High: the waiting command starts a pattern; low: it stops the running one.
         pub pending_run: Bit = c.free_running.is_some(),
-        /// The command does not wait for the end of a pattern.
+        /// High: the waiting command is taken at the next RST; low: at the RST that ends the
+        /// running pattern.
         pub pending_now: Bit = 0,
-        /// Its unit time in ticks.
+        /// Unit time of the waiting command, in ticks.
         pub pending_period: U(c.period) = c.pattern().period,
     }
     /// Nets.
     pub struct Net {
-        /// A command without `now` would be accepted.
+        /// Ready: a command without `now` is accepted.
         pub ready: Bit,
         /// A command is accepted.
         accept: Bit,

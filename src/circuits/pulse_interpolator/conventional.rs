@@ -9,8 +9,8 @@
 //!                    └──────────────┘
 //! ```
 //!
-//! While a unit time runs, the next is computed. One that is not ready in time comes a whole unit
-//! time later; the axes stop until then.
+//! While a unit time runs, the next one is computed. If it is not ready in time, it starts a whole
+//! unit time later, and the axes stop until then.
 
 use super::circular_interpolator::{self, ArcMove, CircularInterpolator};
 use super::motor_controller::{self, ConventionalWidths, Move};
@@ -25,7 +25,7 @@ use crate::prelude::*;
 pub struct Conventional {
     /// Number of axes.
     pub axes: usize,
-    /// Its widths.
+    /// Word widths.
     pub widths: ConventionalWidths,
     /// Unit time at power-on, in ticks.
     pub period: u64,
@@ -65,9 +65,9 @@ const ANGLE: usize = 32;
 signals! { for Conventional as c;
     /// Input ports: the computer 7.
     pub struct In {
-        /// The move that is given.
+        /// Move from the computer 7.
         pub order: Move(&c.controller()) as Flat,
-        /// Parameters of the move as an arc.
+        /// Parameters of the move if it is an arc.
         pub arc: ArcMove(&c.circular()) if c.arcs,
     }
     /// The circuits inside.
@@ -76,13 +76,13 @@ signals! { for Conventional as c;
         pub unit_time: Part<UnitTimeRegister>(c.unit_time()),
         /// Unit-time counter; its enable is RST.
         pub counter: Part<EnableCounter>(EnableCounter { width: c.widths.period }),
-        /// Amounts of arcs.
+        /// Steps of arcs.
         pub interpolator: Part<CircularInterpolator>(c.circular()) if c.arcs,
-        /// Their points.
+        /// Points of arcs.
         pub cordic: Part<Cordic>(c.circular().cordic()) if c.arcs,
         /// Motor controller 5.
         pub controller: Part<MotorController>(c.controller()),
-        /// Its divider.
+        /// Divider of the motor controller.
         pub divider: Part<MulDiv>(c.controller().divider()),
         /// Pulse generators 6x, 6y.
         pub trains: [Part<PulseTrain>(PulseTrain {
@@ -96,21 +96,21 @@ signals! { for Conventional as c;
         pub step: [Bit; c.axes] as Elements(group::STEP),
         /// Directions; high counts down.
         pub dir: [Bit; c.axes] as Elements(group::DIR),
-        /// RST: this is the last tick of the unit time.
+        /// RST: high in the last tick of the unit time.
         pub unit_rst: Bit,
-        /// A move would be accepted.
+        /// Ready: a move is accepted.
         pub ready: Bit,
-        /// A unit of a move runs.
+        /// A unit time of a move is running.
         pub busy: Bit,
-        /// A unit time without pulses begins, because the next of a move is not prepared yet.
+        /// A unit time without pulses follows, because the next unit time of the move is not
+        /// prepared.
         pub late: Bit,
     }
 }
 
 impl Circuit for Conventional {
     const NAME: &'static str = "conventional_pulse_interpolator";
-    const ABOUT: &'static str =
-        "the device before: a motor controller that computes, pulse generators";
+    const ABOUT: &'static str = "conventional device: a motor controller and pulse generators";
     records!(In, Nothing, Net, Parts);
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {

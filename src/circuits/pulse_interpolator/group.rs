@@ -34,7 +34,7 @@ pub(super) const DIR: &[&str] = &[
 pub struct Group {
     /// Number of axes.
     pub axes: usize,
-    /// Its widths.
+    /// Word widths.
     pub widths: Widths,
     /// Unit time at power-on, in ticks.
     pub period: u64,
@@ -90,27 +90,27 @@ impl Group {
 signals! { for Group as c;
     /// Input ports: the control computer 2.
     pub struct In {
-        /// A command is given; see [`command_port::In`].
+        /// Gives a command; see [`command_port::In`].
         pub command: Bit,
-        /// First address of its pattern.
+        /// First address of the command's pattern.
         pub base: U(c.widths.address) as Hex,
-        /// Last address of its pattern.
+        /// Last address of the command's pattern.
         pub last: U(c.widths.address) as Hex,
-        /// Its pattern starts again after its last word.
+        /// The command's pattern repeats after its last word.
         pub cyclic: Bit,
-        /// High: starts a pattern; low: stops the running one.
+        /// High: the command starts a pattern; low: it stops the running one.
         pub run: Bit,
         /// High: the command is taken at the next RST; low: at the RST that ends the running
         /// pattern.
         pub now: Bit,
-        /// Unit time in ticks: of the command, or written by `write_period`.
+        /// Unit time in ticks, for the command or for `write_period`.
         pub period: U(c.widths.period),
-        /// Rewrites the unit time, in force from the next RST on.
+        /// Writes the unit time, which is in force from the next RST on.
         pub write_period: Bit,
-        /// Ends the unit time in this tick, whatever T is: for a group whose timing another
-        /// counter sets.
+        /// Ends the unit time in this tick, whatever T is. For a group that is timed by another
+        /// counter.
         pub unit_end: Bit,
-        /// Writes the words of all axes.
+        /// Port through which the words of all axes are written.
         pub port: WritePort(&c.widths) as Flat,
     }
     /// The circuits inside.
@@ -139,11 +139,11 @@ signals! { for Group as c;
         pub step: [Bit; c.axes] as Elements(STEP),
         /// Directions; high counts down.
         pub dir: [Bit; c.axes] as Elements(DIR),
-        /// RST: this is the last tick of the unit time.
+        /// RST: high in the last tick of the unit time.
         pub unit_rst: Bit,
-        /// A command without `now` would be accepted.
+        /// Ready: a command without `now` is accepted.
         pub ready: Bit,
-        /// A pattern runs.
+        /// A pattern is running.
         pub busy: Bit,
     }
 }

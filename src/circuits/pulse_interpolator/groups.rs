@@ -35,10 +35,10 @@ pub struct Groups {
     pub widths: Widths,
     /// Variant of RST.
     pub variant: Variant,
-    /// Unit time of each at power-on, in ticks.
+    /// Unit time of each group at power-on, in ticks.
     #[serde(deserialize_with = "both")]
     pub periods: [u64; 2],
-    /// Contents of the pattern memories of each at power-on, axis by axis.
+    /// Contents of each group's pattern memories at power-on, axis by axis.
     #[serde(deserialize_with = "both")]
     pub memories: [Vec<Contents>; 2],
 }
@@ -66,12 +66,12 @@ impl Groups {
 signals! { for Groups as c;
     /// Input ports.
     pub struct In {
-        /// The control computer 2 to each group.
+        /// Ports from the control computer 2, group by group.
         pub control: [Control(&c.group(k)); k in 2] as Elements(&["for_first", "for_second"]),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// An idle group accepted a command: its unit time ends.
+        /// The idle group has accepted a command: its unit time ends in this tick.
         starting: [Bit; 2] as Elements(&["first_starting", "second_starting"]) = 0,
     }
     /// The circuits inside.
@@ -81,7 +81,7 @@ signals! { for Groups as c;
     }
     /// Output ports.
     pub struct Net {
-        /// Each group's.
+        /// Output ports of each group.
         pub lines: [Lines(&c.group(k)); k in 2] as Elements(&["of_first", "of_second"]),
     }
 }

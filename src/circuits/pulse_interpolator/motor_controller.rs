@@ -1,5 +1,5 @@
-//! Motor controller 5 of the conventional device (¶0003–0004): computes for every unit time how far
-//! each axis goes, and from that the length of its pulses.
+//! Motor controller 5 of the conventional device (¶0003–0004): computes for every unit time the
+//! steps of each axis, and from these the length of its pulses.
 //!
 //! ```text
 //!                       ┌──────────────────┐
@@ -78,7 +78,7 @@ impl ConventionalWidths {
 pub struct MotorController {
     /// Number of axes.
     pub axes: usize,
-    /// Its widths.
+    /// Word widths.
     pub widths: ConventionalWidths,
 }
 
@@ -101,87 +101,88 @@ impl MotorController {
 signals! { for MotorController as c;
     /// A move, from the computer 7.
     pub struct Move {
-        /// A move is given.
+        /// Gives a move: `units`, `period` and the steps of all axes are valid.
         pub command: Bit,
-        /// Its steps on each axis.
+        /// Signed steps of the move on this axis.
         pub delta: [I(c.widths.distance + 1); c.axes] as Elements(DELTA),
-        /// U: how many unit times it takes; with 0 it is dropped.
+        /// U: number of unit times of the move; a move with 0 is dropped.
         pub units: U(c.widths.units),
-        /// Its unit time T in ticks.
+        /// Unit time T of the move, in ticks.
         pub period: U(c.widths.period),
     }
     /// Input ports.
     pub struct In {
-        /// The move.
+        /// Move from the computer 7.
         pub order: Move(c) as Flat,
-        /// The last tick of the unit time: the prepared unit is taken.
+        /// RST: high in the last tick of the unit time. The prepared unit time is taken over.
         pub unit_rst: Bit,
         /// The divider has a result.
         pub done: Bit,
-        /// Its quotient.
+        /// Quotient from the divider.
         pub quotient: U(c.widths.divider()),
-        /// Its remainder.
+        /// Remainder from the divider.
         pub remainder: U(c.widths.divider()),
     }
     /// Words of an axis.
     pub struct Words {
-        /// Steps of the move that waits.
+        /// Signed steps of the waiting move.
         pending_delta: I(c.widths.distance + 1),
-        /// Steps of the running move, without their sign.
+        /// Magnitude of the steps of the running move.
         distance: U(c.widths.distance + 1),
-        /// Their sign; high counts down.
+        /// Direction of the running move; high counts down.
         pub down: Bit,
-        /// Remainder of the division, for the next unit.
+        /// Remainder of the division, for the next unit time.
         rest: U(c.widths.units),
-        /// Steps of the unit that is prepared.
+        /// Steps of the prepared unit time.
         pub amount: U(c.widths.distance + 1),
-        /// Half-period of the unit that is prepared, in ticks; 0 where the steps do not fit into T.
+        /// Half-period of the prepared unit time, in ticks; 0 if the steps do not fit into T.
         pub half_period: U(c.widths.half_period),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// A move waits.
+        /// A move is waiting.
         pub pending: Bit,
-        /// Its unit times.
+        /// Number of unit times of the waiting move.
         pending_units: U(c.widths.units),
-        /// Its T.
+        /// T of the waiting move, in ticks.
         pending_period: U(c.widths.period),
         /// State of the sequence.
         state: U(2) as States(STATES),
-        /// The axis that is computed.
+        /// Number of the axis being computed.
         axis: U(3),
-        /// U of the running move.
+        /// U: number of unit times of the running move.
         length: U(c.widths.units),
-        /// Unit times of it that are not prepared yet.
+        /// Unit times of the running move that are not prepared yet.
         left: U(c.widths.units),
         /// T of the running move, in ticks.
         pub unit_period: U(c.widths.period),
-        /// The divider begins.
+        /// Starts the divider.
         pub start: Bit,
-        /// A unit that was prepared runs.
+        /// A prepared unit time is running.
         pub busy: Bit,
         /// Words of each axis.
         pub words: [Words(c); c.axes] as Elements(&AXIS_NAMES),
     }
     /// Nets.
     pub struct Net {
-        /// A move would be accepted.
+        /// Ready: a move is accepted.
         pub ready: Bit,
-        /// The waiting move begins: it is computed from the next tick on.
+        /// The waiting move begins; it is computed from the next tick on.
         begins: Bit,
-        /// A result is taken from the divider.
+        /// A result of the divider is taken.
         divided: Bit,
-        /// A result of an axis is taken.
+        /// A result of the divider is taken for this axis.
         result: [Bit; c.axes] as Elements(RESULT),
-        /// The half-period that the divider gives; the greatest where it is above.
+        /// Half-period from the divider, limited to the greatest word.
         rounded: U(c.widths.half_period),
         /// The next unit time is prepared.
         pub prepared: Bit,
-        /// A unit time without pulses begins, because the next of a move is not prepared yet.
+        /// A unit time without pulses follows, because the next unit time of the move is not
+        /// prepared.
         pub late: Bit,
-        /// Dividend, less the addend.
+        /// Dividend without the addend.
         pub dividend: U(c.widths.divider()),
-        /// Added to it.
+        /// Addend of the dividend.
         pub addend: U(c.widths.divider()),
         /// Divisor.
         pub divisor: U(c.widths.divider()),
@@ -199,7 +200,7 @@ const DELTA: &[&str] = &[
 
 impl Circuit for MotorController {
     const NAME: &'static str = "motor_controller";
-    const ABOUT: &'static str = "conventional: amount and pulse length of every axis and unit time";
+    const ABOUT: &'static str = "conventional: steps and pulse length of every axis and unit time";
     records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {

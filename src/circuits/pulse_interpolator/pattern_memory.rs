@@ -88,15 +88,15 @@ impl PatternMemory {
 signals! { for (PatternMemory, Widths) as c;
     /// The port by which the words of all axes are written.
     pub struct WritePort {
-        /// Writes a word of the axis that `write_axis` names.
+        /// Writes a word of the axis with the number `write_axis`.
         pub write: Bit,
-        /// The axis written to.
+        /// Number of the axis to write.
         pub write_axis: U(3),
-        /// Address written to.
+        /// Address to write.
         pub write_address: U(c.address) as Hex,
-        /// Half-period written.
+        /// Half-period to write, in ticks; 0 for no pulse.
         pub write_half_period: U(c.half_period),
-        /// Direction written.
+        /// Direction to write; high counts down.
         pub write_direction: Bit,
     }
 }
@@ -118,7 +118,7 @@ signals! { for PatternMemory as c;
         pub blank: Bit,
         /// Address of the next unit time.
         pub address: U(c.address) as Hex,
-        /// Writes a word if `write_axis` names this axis.
+        /// Write port; writes a word if `write_axis` is this axis.
         pub port: WritePort(c) as Flat,
     }
     /// Flip-flops and memories.
@@ -127,14 +127,14 @@ signals! { for PatternMemory as c;
         half_periods: Ram(c.address, c.half_period) = &c.contents().half_periods,
         /// Directions, one bit per unit time.
         directions: Ram(c.address, 1) = &c.contents().directions,
-        /// Half-period of the unit time that runs, in ticks; 0 for no pulse.
+        /// Half-period of the current unit time, in ticks; 0 for no pulse.
         pub half_period: U(c.half_period) = 0,
-        /// Direction of the unit time that runs; high counts down.
+        /// Direction of the current unit time; high counts down.
         pub direction: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A word is written to this axis.
+        /// A word of this axis is written.
         selected: Bit,
         /// The output becomes "no pulse".
         clear: Bit,

@@ -7,9 +7,9 @@
 //!                └─────────────────┘
 //! ```
 //!
-//! `pulse` is the comparator's output before the flip-flop 40, so that the toggle and the
-//! flip-flop change in the same tick: n ticks into the unit time, 2n, … RST acts on the registers
-//! only: `equal` and `pulse` may be high in its tick.
+//! `pulse` is the comparator's output before the flip-flop 40. So the toggle and the flip-flop
+//! change in the same tick: n, 2n, … ticks into the unit time. RST acts on the registers only:
+//! `equal` and `pulse` may be high in the tick of RST.
 //!
 //! Departures: a half-period of 0 gives no pulse and clears counter and toggle. In the *safe* variant
 //! RST clears them too, and "equal" is `count + 1 >= half_period`, so no n makes the counter run to
@@ -34,23 +34,24 @@ signals! { for PulseGenerator as c;
     pub struct In {
         /// Half-period of the pulse signal in ticks; 0 for no pulse.
         pub half_period: U(c.width),
-        /// Last tick of the unit time.
+        /// RST: high in the last tick of the unit time.
         pub unit_rst: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
         /// 201: ticks since the last toggle.
         pub(crate) count: U(c.width) as Analog = 0,
-        /// 202: the level between toggles.
+        /// 202: level of the pulse signal since the last toggle.
         pub(crate) toggle: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// `count + 1`: ticks since the last toggle, this one included.
+        /// `count + 1`: ticks since the last toggle, including this one.
         next: U(c.width),
-        /// 202: the half-period is over with this tick. The name is the patent's; safe is `>=`.
+        /// 202: the half-period ends with this tick. The patent's name; the safe variant compares
+        /// with `>=`.
         equal: Bit,
-        /// The pulse signal; the flip-flop 40 shows it a tick later, except in the tick after RST.
+        /// Pulse signal; the flip-flop 40 outputs it one tick later, except in the tick after RST.
         pub pulse: Bit,
     }
 }

@@ -8,12 +8,12 @@
 //!                       └─────────────┘
 //! ```
 //!
-//! The first pulse rises n ticks after the tick of `load`, as that of the pulse generator 20 does.
-//! Pulses are counted where they fall, so any number of them is made exactly that has room, 2·Y·n
+//! The first pulse rises n ticks after the tick of `load`, as in the pulse generator 20. Pulses are
+//! counted at their falling edges. So Y pulses are output exactly if there is time for them, 2·Y·n
 //! ticks.
 //!
-//! Departures: the text has no direction; `dir` changes with the first tick of a train, and with no
-//! train of 0 pulses. A half-period of 0 gives no pulse.
+//! Departures: the text has no direction. Here `dir` changes in the first tick of a train; a train
+//! of 0 pulses leaves `dir` as it is. A half-period of 0 gives no pulse.
 
 use crate::prelude::*;
 
@@ -30,20 +30,20 @@ pub struct PulseTrain {
 signals! { for PulseTrain as c;
     /// Input ports.
     pub struct In {
-        /// Starts a new train with the next tick; the rest of the old one is dropped.
+        /// Starts a new train in the next tick; the rest of the old one is dropped.
         pub load: Bit,
-        /// Its half-period in ticks; 0 for no pulse.
+        /// Half-period of the new train, in ticks; 0 for no pulse.
         pub half_period: U(c.half_period),
-        /// Its number of pulses.
+        /// Number of pulses of the new train.
         pub pulses: U(c.pulses),
-        /// Its direction.
+        /// Direction of the new train; high counts down.
         pub down: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// Half-period in force.
+        /// Half-period of the running train, in ticks.
         held: U(c.half_period),
-        /// Pulses that have not fallen yet.
+        /// Pulses whose falling edge is still to come.
         left: U(c.pulses) as Analog,
         /// Ticks since the last toggle.
         count: U(c.half_period) as Analog,
@@ -54,22 +54,22 @@ signals! { for PulseTrain as c;
     }
     /// Nets.
     pub struct Net {
-        /// `count + 1`: ticks since the last toggle, this one included.
+        /// `count + 1`: ticks since the last toggle, including this one.
         next: U(c.half_period),
-        /// Pulses are left, and can be made.
+        /// Pulses are left, and the half-period is not 0.
         active: Bit,
-        /// The half-period is over with this tick.
+        /// The half-period ends with this tick.
         over: Bit,
-        /// A pulse falls at the end of this tick.
+        /// A pulse ends with this tick.
         falls: Bit,
-        /// With this tick all pulses are made.
+        /// No pulse is left after this tick.
         pub spent: Bit,
     }
 }
 
 impl Circuit for PulseTrain {
     const NAME: &'static str = "pulse_train";
-    const ABOUT: &'static str = "makes a number of pulses of one length";
+    const ABOUT: &'static str = "outputs a number of pulses of equal length";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

@@ -18,9 +18,9 @@ pub struct SyncStage {}
 signals! { for SyncStage as c;
     /// Input ports.
     pub struct In {
-        /// The pulse signal.
+        /// Pulse signal of the pulse generator 20.
         pub pulse: Bit,
-        /// Last tick of the unit time.
+        /// RST: high in the last tick of the unit time.
         pub unit_rst: Bit,
     }
     /// Flip-flops.

@@ -1,5 +1,5 @@
-//! The count law as a circuit that can be proved: one unit time after another, each with a
-//! half-period and a T of its own, and ghost registers that no hardware has.
+//! Count law as a circuit that can be proved: unit time after unit time, each with its own
+//! half-period and T, and ghost registers, which exist for the proof only.
 //!
 //! ```text
 //!                ┌──────────┐
@@ -12,7 +12,7 @@ use super::{PulseGenerator, SyncStage, Variant, counts, pulse_generator, sync_st
 use crate::circuits::blocks::{EnableCounter, enable_counter};
 use crate::prelude::*;
 
-/// Unit times of free data.
+/// Sequence of unit times with arbitrary half-period and T.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct UnitLaw {
@@ -32,13 +32,13 @@ signals! { for UnitLaw as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// Half-period of this unit time.
+        /// Half-period of the current unit time, in ticks.
         held_half_period: U(c.width),
-        /// T of this unit time.
+        /// T of the current unit time, in ticks.
         held_period: U(c.width) = 1,
-        /// Ghost: pulses of this unit time before this tick.
+        /// Ghost: pulses of the current unit time before this tick.
         pulses: U(c.width),
-        /// Ghost: the level of step a tick ago, low in the first tick of a unit time.
+        /// Ghost: level of `step` one tick ago; low in the first tick of a unit time.
         lagged: Bit,
     }
     /// The circuits inside.
@@ -52,7 +52,7 @@ signals! { for UnitLaw as c;
     }
     /// Nets.
     pub struct Net {
-        /// Ghost: pulses of this unit time, this tick included.
+        /// Ghost: pulses of the current unit time, including this tick.
         counted: U(c.width),
         /// Step pulses.
         pub step: Bit,
@@ -61,7 +61,8 @@ signals! { for UnitLaw as c;
 
 impl Circuit for UnitLaw {
     const NAME: &'static str = "unit_law";
-    const ABOUT: &'static str = "unit times of free data, with a ghost that counts the pulses";
+    const ABOUT: &'static str =
+        "unit times with arbitrary half-period and T, and a ghost pulse counter";
     records!(In, Reg, Net, Parts);
 
     fn tick(&self, i: In, q: Reg, p: Parts) -> (Net, Reg<Edge>) {

@@ -1,4 +1,5 @@
-//! Unit-time register: the setting T of the unit-time counter 30, rewritable at any time (¶0016).
+//! Unit-time register: the setting T of the unit-time counter 30, which can be rewritten at any
+//! time (¶0016).
 //!
 //! ```text
 //!              ┌────────────────────┐
@@ -11,8 +12,8 @@
 //! ```
 //!
 //! Departures: the text lets the control computer rewrite T directly. Here a new T waits in a
-//! shadow register until RST, so no unit time is cut or stretched; a pattern brings its T along,
-//! and that T is in force from the pattern's first unit time on.
+//! shadow register until RST, so no unit time is cut or stretched. A pattern brings its own T, in
+//! force from the first unit time of the pattern on.
 
 use crate::prelude::*;
 
@@ -31,20 +32,20 @@ signals! { for UnitTimeRegister as c;
     pub struct In {
         /// Writes `period` into the shadow register.
         pub write: Bit,
-        /// Unit time in ticks, in force from the RST after the write on.
+        /// Unit time in ticks, in force from the next RST on.
         pub period: U(c.width),
-        /// Last tick of the unit time.
+        /// RST: high in the last tick of the unit time.
         pub unit_rst: Bit,
-        /// With `unit_rst`: a pattern begins.
+        /// Loads `take_period` in place of the shadow register; allowed with `unit_rst` only.
         pub take: Bit,
-        /// Unit time of that pattern, in ticks.
+        /// Unit time to load with `take`, in ticks.
         pub take_period: U(c.width),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// The next unit time, in ticks.
+        /// Next unit time, in ticks.
         shadow: U(c.width) = c.period,
-        /// The unit time in force, in ticks.
+        /// Current unit time, in ticks.
         pub active: U(c.width) = c.period,
     }
     /// Nets.

@@ -1,4 +1,4 @@
-//! Arc angle: the angle of a length on an arc, as a fraction of a turn.
+//! Arc angle: computes the angle of a length on an arc, as a fraction of a turn.
 //!
 //! ```text
 //!               ┌───────────┐
@@ -9,9 +9,9 @@
 //!               └───────────┘
 //! ```
 //!
-//! angle = offset / (2πr), as a product with the reciprocal: `curvature` has its leading bit set,
-//! so the product has as many digits as the offset, whatever the radius; then it is shifted up to
-//! the angle's unit. Bits that overflow are whole turns.
+//! angle = offset / (2πr), as a product with a reciprocal. The leading bit of `curvature` is set,
+//! so the product has as many digits as the offset, whatever the radius. Then the product is
+//! shifted up to the unit of the angle. Bits that overflow are whole turns.
 
 use super::widths::{PRODUCT_FRACTION, PointWidths};
 use crate::prelude::*;
@@ -24,11 +24,11 @@ const SHIFT: u64 = 2;
 
 /// Angle from an offset and a curvature.
 ///
-/// `done` is high M + 1 ticks after `start`, and as many more as `shift` says.
+/// `done` is high M + 1 + `shift` ticks after `start`.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ArcAngle {
-    /// Its widths.
+    /// Word widths.
     pub widths: PointWidths,
 }
 
@@ -42,52 +42,52 @@ impl ArcAngle {
 signals! { for ArcAngle as c;
     /// Input ports. Values given with `start` are taken in that tick and need not be held.
     pub struct In {
-        /// Starts, unless one is running.
+        /// Starts a calculation; ignored while `busy`.
         pub start: Bit,
-        /// The length on the arc in guard units.
+        /// Length on the arc, in guard units.
         pub offset: U(c.widths.point),
-        /// 2^(M + n − 4) / (2πr) with the n for which it has M bits.
+        /// 2^(M + n − 4) / (2πr), with the n that gives it M bits.
         pub curvature: U(c.widths.curvature) as Hex,
-        /// H − n.
+        /// H − n: shift of the product, in bits.
         pub shift: U(6),
     }
     /// Flip-flops.
     pub struct Reg {
         /// State of the sequence.
         state: U(2) as States(STATES) = 0,
-        /// Remaining bits of the curvature, or shifts,.
+        /// Remaining bits of the curvature, or remaining shifts.
         count: U(6) = 0,
-        /// Shift of the product in bits.
+        /// `shift` of the running calculation.
         shifts: U(6) = 0,
-        /// The offset with the extra bits below it.
+        /// Offset with its extra bits below the guard unit.
         factor: U(c.widths.product()) = 0,
         /// Remaining bits of the curvature.
         bits: U(c.widths.curvature) as Hex = 0,
         /// Partial product, in units of the next bit's weight.
         product: U(c.widths.product()) = 0,
-        /// The angle in units of 2^−H turn, from `done` on.
+        /// Angle in units of 2^−H turn; valid from `done` on.
         pub angle: U(c.widths.angle) as Analog = 0,
         /// The angle is valid in this tick.
         pub done: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A start is taken.
+        /// A start is accepted.
         take: Bit,
-        /// The last bit of the curvature, or the last shift.
+        /// Last bit of the curvature, or last shift.
         last: Bit,
-        /// Product plus the term of this bit.
+        /// Partial product plus the term of the current bit.
         total: U(c.widths.product()),
-        /// The angle is complete after this tick.
+        /// The angle is complete at the end of this tick.
         complete: Bit,
-        /// A start is not taken.
+        /// A calculation is running; a start is ignored.
         pub busy: Bit,
     }
 }
 
 impl Circuit for ArcAngle {
     const NAME: &'static str = "arc_angle";
-    const ABOUT: &'static str = "length on an arc as part of a turn";
+    const ABOUT: &'static str = "length on an arc to a fraction of a turn";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

@@ -1,4 +1,4 @@
-//! Axis row: one coordinate of the point at a segment's own three coordinates.
+//! Axis row: computes one coordinate of the point from the three coordinates within a segment.
 //!
 //! ```text
 //!                           ┌──────────┐
@@ -9,11 +9,12 @@
 //!                           └──────────┘
 //! ```
 //!
-//! base + by_along·along + by_across·across + by_third·third: on a line the base is its start, `along`
-//! the length on it, and the coefficient the direction's cosine (equation (1), with the ratio worked
-//! out beforehand); on an arc the base is the centre, and the coefficients are those of the two
-//! radii, on a helix of the rise too; on a spline the coordinates are the powers of the length.
-//! One bit of all coefficients per tick, from the lowest up; nothing is lost before the rounding.
+//! The point is base + by_along·along + by_across·across + by_third·third. On a line, the base is
+//! the start, `along` the length on the line, and its coefficient the direction cosine (equation
+//! (1), with the ratio computed beforehand). On an arc, the base is the centre, and the
+//! coefficients are those of the two radii; on a helix, also of the rise. On a spline, the
+//! coordinates are the powers of the length. One bit of all coefficients is processed per tick, the
+//! lowest first. Nothing is lost before the rounding.
 
 use super::widths::PointWidths;
 use crate::prelude::*;
@@ -22,9 +23,9 @@ use crate::prelude::*;
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AxisRow {
-    /// Its widths.
+    /// Word widths.
     pub widths: PointWidths,
-    /// 0, 1, 2, 3 for x, y, z, w: it decides which words of a segment the row takes.
+    /// 0, 1, 2, 3 for x, y, z, w: selects the words of a segment that the row takes.
     pub coordinate: u64,
 }
 
@@ -43,28 +44,28 @@ signals! { for AxisRow as c;
     pub struct In {
         /// `data` is word `word` of a segment.
         pub load: Bit,
-        /// Number of the word.
+        /// Number of the word in `data`.
         pub word: U(c.widths.word),
-        /// Its data.
+        /// Word of a segment.
         pub data: U(c.widths.data) as Hex,
         /// The coefficients are copied.
         pub copy: Bit,
-        /// The bit is one of the fraction.
+        /// The current bit is a fraction bit.
         pub fraction: Bit,
-        /// The bit is the sign, of weight −2.
+        /// The current bit is the sign bit, of weight −2.
         pub top: Bit,
         /// The sum is complete.
         pub commit: Bit,
-        /// First coordinate in the segment, with R − P bits below the guard unit.
+        /// First coordinate within the segment, with R − P bits below the guard unit.
         pub along: I(c.widths.radius),
-        /// Second coordinate, in the same unit.
+        /// Second coordinate within the segment, in the unit of `along`.
         pub across: I(c.widths.radius),
-        /// Third coordinate, in the same unit.
+        /// Third coordinate within the segment, in the unit of `along`.
         pub third: I(c.widths.radius),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// Origin of the segment's coordinates.
+        /// Origin of the segment's coordinates, in guard units.
         base: I(c.widths.point) = 0,
         /// Coefficient of `along`.
         by_along: U(c.widths.coefficient) as Hex = 0,
@@ -80,31 +81,31 @@ signals! { for AxisRow as c;
         bits_third: U(c.widths.coefficient) as Hex = 0,
         /// Partial sum of the products, in units of the next bit's weight.
         sum: I(c.widths.sum()) = 0,
-        /// The coordinate of the point.
+        /// Coordinate of the point, in guard units.
         pub point: I(c.widths.point) as Analog = 0,
     }
     /// Nets.
     pub struct Net {
-        /// `along` where its coefficient has the bit, else 0.
+        /// `along` if the bit of its coefficient is 1, otherwise 0.
         term_along: I(c.widths.sum()),
-        /// `across` where its coefficient has the bit, else 0.
+        /// `across` if the bit of its coefficient is 1, otherwise 0.
         term_across: I(c.widths.sum()),
-        /// `third` where its coefficient has the bit, else 0.
+        /// `third` if the bit of its coefficient is 1, otherwise 0.
         term_third: I(c.widths.sum()),
-        /// All terms added.
+        /// Sum of the three terms.
         addend: I(c.widths.sum()),
-        /// The sum with it.
+        /// Sum plus `addend` at the weight of the current bit.
         total: I(c.widths.sum()),
-        /// The sum and half a guard unit.
+        /// Sum plus half a guard unit.
         raised: I(c.widths.sum()),
-        /// The sum to the nearest guard unit.
+        /// Sum, rounded to the nearest guard unit.
         nearest: I(c.widths.point),
     }
 }
 
 impl Circuit for AxisRow {
     const NAME: &'static str = "axis_row";
-    const ABOUT: &'static str = "one coordinate of a point on a segment, a bit a tick";
+    const ABOUT: &'static str = "one coordinate of a point on a segment, one bit per tick";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

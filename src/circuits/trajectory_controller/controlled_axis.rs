@@ -29,19 +29,19 @@ signals! { for ControlledAxis as c;
     pub struct In {
         /// The position command is new.
         pub step: Bit,
-        /// Sets the servo response to the command, at rest; overrides a step in the same tick.
+        /// Sets the servo response to the command, at rest; has priority over `step`.
         pub preset: Bit,
         /// Pc: the position command.
         pub command: I(c.servo.widths.position),
-        /// The reference point and the responses are valid.
+        /// Reference point and servo responses are valid.
         pub correct: Bit,
         /// Pr: the reference point, or the error feedback.
         pub target: I(c.servo.widths.position),
-        /// Encoder, channel A.
+        /// Channel A of the encoder, asynchronous.
         pub a: Bit,
-        /// Channel B.
+        /// Channel B of the encoder, asynchronous.
         pub b: Bit,
-        /// K1 and K2, of response and servo control.
+        /// K1 and K2 of servo response and servo control.
         pub model_gains: ModelGains(&c.servo.widths.model()) as Flat,
         /// Gains of the servo control's loops.
         pub gains: ServoGains(&c.servo.widths) as Flat,
@@ -60,21 +60,21 @@ signals! { for ControlledAxis as c;
     }
     /// Output ports.
     pub struct Net {
-        /// The servo response is valid in this tick.
+        /// High for one tick: the servo response has a new value.
         pub answered: Bit,
-        /// E: the correction.
+        /// E: correction.
         pub deviation: I(c.servo.widths.position) as Analog,
-        /// Pd: the corrected command.
+        /// Pd: corrected position command.
         pub corrected: I(c.servo.widths.position) as Analog,
-        /// The torque.
+        /// Torque command.
         pub torque: I(c.servo.widths.torque) as Analog,
-        /// High if the torque is limited.
+        /// The torque is limited.
         pub saturated: Bit,
-        /// The torque is new in this tick.
+        /// High for one tick: the torque has a new value.
         pub driven: Bit,
         /// Position of the motor in counts.
         pub position: I(c.servo.widths.count) as Analog,
-        /// The encoder was too fast.
+        /// Both encoder channels have changed at once since power-on: the position is wrong.
         pub lost: Bit,
     }
 }

@@ -32,7 +32,7 @@ const RECORDS: usize = 4;
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrajectoryController {
-    /// Its widths, by name.
+    /// Word widths, by name.
     pub widths: Widths,
     /// Number of axes, up to 4.
     pub axes: usize,
@@ -40,7 +40,7 @@ pub struct TrajectoryController {
     pub correction: Correction,
     /// Rounding of the models.
     pub rounding: Rounding,
-    /// Delays each correction to the worst-case latency.
+    /// True to delay each correction to the worst-case latency.
     pub waits: bool,
 }
 
@@ -186,58 +186,58 @@ struct Routing {
 signals! { for TrajectoryController as c;
     /// Input ports.
     pub struct In {
-        /// Records of the profile.
+        /// Port through which records of the profile are written.
         pub record: RecordWrite(&c.widths.data) as Flat,
-        /// Begins to move along the path.
+        /// Starts a motion along the path.
         pub start: Bit,
-        /// Ends the movement where it is.
+        /// Ends the motion. The commands keep their values.
         pub halt: Bit,
-        /// Another path, at rest: its segments may be written from the next beginning of a period
-        /// up to `start`. The servo controls hold the machine meanwhile.
+        /// Selects another path, at rest. Its segments may be written from the next start of a
+        /// period until `start`. The servo controls hold the machine meanwhile.
         pub restart: Bit,
-        /// The path's segments.
+        /// Port through which segments of the path are written.
         pub path: PathWrite(&c.point(RADIUS).widths) as Flat,
-        /// The path's last segment.
+        /// Number of the last segment of the path.
         pub last: U(c.widths.segment),
-        /// L: the path's length.
+        /// L: length of the path, in guard units.
         pub path_end: I(c.widths.point),
-        /// Interpolation period in ticks.
+        /// Interpolation period in ticks; 0 counts as 1.
         pub period: U(c.widths.period),
         /// K1 and K2 of the tangential response.
         pub model_gains: ModelGains(&c.widths.model()) as Flat,
         /// Gains of the error feedback.
         pub feedback_gains: FeedbackGains(&c.widths.feedback()) as Flat,
-        /// K1 of each axis, of its response and its servo control's model, in the unit of
-        /// `gain_1`.
+        /// K1 of this axis, for its servo response and the model in its servo control; in the unit
+        /// of `gain_1`.
         pub axis_gain_1: [U(c.widths.gain); c.axes] as Elements(of_axes!("gain_1")),
-        /// K2 of each axis, in the unit of `gain_2`.
+        /// K2 of this axis, in the unit of `gain_2`.
         pub axis_gain_2: [U(c.widths.gain); c.axes] as Elements(of_axes!("gain_2")),
-        /// Gains of the position controls 27.
+        /// Gain of position control 27 of this axis.
         pub position_gain: [U(c.widths.servo_gain); c.axes] as Elements(of_axes!("position_gain")),
-        /// Proportional gains of the speed controls 29.
+        /// Proportional gain of speed control 29 of this axis.
         pub speed_gain: [U(c.widths.servo_gain); c.axes] as Elements(of_axes!("speed_gain")),
-        /// Integral gains of the speed controls 29.
+        /// Integral gain of speed control 29 of this axis.
         pub integral_gain: [U(c.widths.servo_gain); c.axes] as Elements(of_axes!("integral_gain")),
-        /// Gains of the feed-forward 30.
+        /// Gain of feed-forward 30 of this axis.
         pub inertia: [U(c.widths.servo_gain); c.axes] as Elements(of_axes!("inertia")),
-        /// Largest torques.
+        /// Largest torque of this axis.
         pub limit: [U(c.widths.torque); c.axes] as Elements(of_axes!("limit")),
-        /// Position commands come from elsewhere, and not from the axis distribution.
+        /// High: position commands come from `given_command`, not from the axis distribution.
         pub given: Bit,
-        /// The given commands, constant from one beginning of a period to the next.
+        /// External position command of this axis, in guard units; constant during a period.
         pub given_command: [I(c.widths.point); c.axes] as Elements(of_axes!("given_command")),
-        /// Encoders, channel A.
+        /// Channel A of this axis' encoder, asynchronous.
         pub a: [Bit; c.axes] as Elements(of_axes!("a")),
-        /// Channel B.
+        /// Channel B of this axis' encoder, asynchronous.
         pub b: [Bit; c.axes] as Elements(of_axes!("b")),
     }
     /// The blocks inside.
     pub struct Parts {
-        /// Interpolation period.
+        /// Counter of the interpolation period.
         pub period_counter: Part<EnableCounter>(EnableCounter { width: c.widths.period }),
         /// Records of the profile.
         pub memory: Part<RecordMemory>(RecordMemory { record: RECORDS, data: c.widths.data }),
-        /// Phase after phase.
+        /// Sequencer of the profile's records.
         pub sequencer: Part<RecordSequencer>(RecordSequencer {
             modulus: c.widths.fraction,
             samples: c.widths.samples,
@@ -253,53 +253,54 @@ signals! { for TrajectoryController as c;
             },
             coordinate: 0,
         }),
-        /// qc.
+        /// qc: length of the command along the path.
         pub progress: Part<PathLength>(PathLength { width: c.widths.point }),
-        /// qc on the path.
+        /// qc, limited to the path.
         pub clamp_command: Part<LengthClamp>(c.clamp(0)),
         /// Tangential servo response 50.
         pub tangential: Part<ReferenceModel>(c.model()),
-        /// qs on the path; with the feedback a count less than qc.
+        /// qs, limited to the path; with the error feedback, one count less than qc.
         pub clamp_response: Part<LengthClamp>(c.clamp(c.routing().back)),
         /// Axis distribution 3.
         pub distribution: Part<PathPoint>(c.point(RADIUS)),
         /// Reference point 2.
         pub reference_point: Part<PathPoint>(c.point(c.routing().radius_word)),
-        /// All points of a period.
+        /// Join of all points of a period.
         pub gather: Part<PeriodJoin>(PeriodJoin { wait: c.wait() }),
-        /// Error feedback, if there is one.
+        /// Error feedback, if it is used.
         pub feedback: Part<ErrorFeedback>(c.feedback()) if (c.routing().feedback),
-        /// The axes.
+        /// Controlled axes.
         pub axes: [Part<ControlledAxis>(c.axis()); c.axes] as Elements(&AXIS_NAMES),
     }
     /// Output ports.
     pub struct Net {
-        /// Torques.
+        /// Torque command of this axis.
         pub torque: [I(c.widths.torque); c.axes] as Elements(of_axes!("torque")),
-        /// Positions of the motors in counts.
+        /// Position of this axis' motor, in counts.
         pub position: [I(c.widths.position); c.axes] as Elements(of_axes!("position")),
-        /// Encoders that were too fast.
+        /// Both encoder channels of this axis have changed at once: the position is wrong.
         pub lost: [Bit; c.axes] as Elements(of_axes!("lost")),
-        /// There is a free profile record.
+        /// A record of the profile is free to be written.
         pub ready: Bit,
-        /// A movement is running.
+        /// A motion is running.
         pub busy: Bit,
-        /// The profile gave a new length in the tick before.
+        /// The profile has output a new length in the tick before.
         pub sampled: Bit,
         /// A period begins with the present length.
         pub fresh: Bit,
-        /// A period began before the one before was over; until the next path.
+        /// A period has begun before the previous one was complete; cleared by `restart`.
         pub late: Bit,
-        /// A period began before the profile had its length; until the next start.
+        /// A period has begun before the profile had its length; cleared by the next start.
         pub profile_late: Bit,
-        /// The profile ended in motion.
+        /// The profile has ended in motion because no record was waiting; cleared by the next
+        /// start.
         pub starved: Bit,
     }
 }
 
 impl Circuit for TrajectoryController {
     const NAME: &'static str = "trajectory_controller";
-    const ABOUT: &'static str = "a path and its profile in, torques that keep to the path out";
+    const ABOUT: &'static str = "a path and its profile in, torques that follow the path out";
     records!(In, Nothing, Net, Parts);
 
     fn objection(&self) -> Option<String> {

@@ -1,4 +1,5 @@
-//! Error feedback, the prior art of ¶0005: the motors' error by its directions, each times its gain.
+//! Error feedback, the prior art of ¶0005: splits the motors' error by direction and multiplies
+//! each part by its gain.
 //!
 //! ```text
 //!                      ┌────────────────┐
@@ -9,11 +10,11 @@
 //!                      └────────────────┘
 //! ```
 //!
-//! e = Pc − motors is what the text calls the error of the servo response (¶0003). The direction t
-//! of the path is the vector to the point of the path from the point a count before it, in counts:
-//! lengths are distances along the path, so no division is needed. Then s = e·t, the tangential
-//! error is s·t, the normal error e − s·t, and the feedback N·(e − s·t) + T·s·t. Two bits of a
-//! factor per tick, all axes at once, each of the three products rounded down.
+//! e = Pc − motors is the error of the servo response in the text (¶0003). The direction t of the
+//! path is the vector, in counts, from a point of the path to the point one count later. Lengths
+//! are distances along the path, so no division is needed. With s = e·t, the tangential error is
+//! s·t, the normal error is e − s·t, and the feedback is N·(e − s·t) + T·s·t. Two bits of a factor
+//! are processed per tick, all axes at once. Each of the three products is rounded down.
 
 use super::path_point::of_axes;
 use super::widths::FeedbackWidths;
@@ -31,7 +32,7 @@ signals! { for FeedbackWidths as c;
     pub struct FeedbackGains {
         /// T: gain of the tangential error, in units of 2^−(K/2); constant from `start` to `done`.
         pub tangential_gain: U(c.gain),
-        /// N: gain of the normal error, in the same units; constant from `start` to `done`.
+        /// N: gain of the normal error, in units of 2^−(K/2); constant from `start` to `done`.
         pub normal_gain: U(c.gain),
     }
 }
@@ -42,7 +43,7 @@ signals! { for FeedbackWidths as c;
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ErrorFeedback {
-    /// Its widths.
+    /// Word widths.
     pub widths: FeedbackWidths,
     /// Number of axes, 1 to 4.
     pub axes: usize,
@@ -59,15 +60,15 @@ impl ErrorFeedback {
 signals! { for ErrorFeedback as c;
     /// Input ports. Points and positions are taken with `start` and need not be held.
     pub struct In {
-        /// Starts, unless one is running.
+        /// Starts a calculation; ignored while `busy`.
         pub start: Bit,
-        /// Pc: the position command.
+        /// Pc: position command of this axis, in guard units.
         pub command: [I(c.widths.position); c.axes] as Elements(of_axes!("command")),
-        /// The point of the path there.
+        /// Point of the path at the command, this coordinate.
         pub path: [I(c.widths.position); c.axes] as Elements(of_axes!("path")),
-        /// The point of the path a count before it.
+        /// Point of the path one count before the command, this coordinate.
         pub behind: [I(c.widths.position); c.axes] as Elements(of_axes!("behind")),
-        /// Positions of the motors in counts.
+        /// Position of this axis' motor, in counts.
         pub position: [I(c.widths.count); c.axes] as Elements(of_axes!("position")),
         /// Gains of both directions.
         pub gains: FeedbackGains(&c.widths) as Flat,
@@ -78,63 +79,64 @@ signals! { for ErrorFeedback as c;
         state: U(2) as States(STATES) = 0,
         /// Pairs of bits that are done.
         pair: U(c.widths.pair()) = 0,
-        /// e: command minus motor.
+        /// e: command minus motor position, in guard units.
         error: [I(c.widths.error()); c.axes] as Elements(of_axes!("error")),
-        /// t: direction of the path, turned on by a pair a tick until it is as it was.
+        /// t: direction of the path in this axis; rotated by one pair of bits per tick, until it is
+        /// in place again.
         direction: [U(c.widths.direction()); c.axes] as Elements(of_axes!("direction")),
-        /// Partial projection, in units of the next pair's weight.
+        /// Partial projection, in units of the weight of the next pair.
         projection: I(c.widths.sum()) = 0,
-        /// s: the tangential error, as a distance along the path.
+        /// s: tangential error as a distance along the path, in guard units.
         along: I(c.widths.error()) as Analog = 0,
-        /// The tangential error, then the feedback: partial sum, in units of the weight of the next
-        /// pair; complete from `done` on.
+        /// Partial sum of the tangential error, then of the feedback, in units of the weight of the
+        /// next pair; the feedback from `done` on.
         pub sum: [I(c.widths.sum()); c.axes] as Elements(of_axes!("sum")),
-        /// The tangential error of each axis.
+        /// Tangential error of this axis.
         tangential: [I(c.widths.error()); c.axes] as Elements(of_axes!("tangential")),
         /// Remaining bits of T.
         tangential_bits: U(2 * c.widths.gain_pairs()) as Hex = 0,
         /// Remaining bits of N.
         normal_bits: U(2 * c.widths.gain_pairs()) as Hex = 0,
-        /// The feedback is valid from this tick on, until the next start.
+        /// High for one tick: the feedback is valid from this tick until the next start.
         pub done: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A start is taken.
+        /// A start is accepted.
         take: Bit,
-        /// The last pair of bits of a direction.
+        /// Last pair of bits of a direction.
         last_of_direction: Bit,
-        /// The last pair of bits of a gain.
+        /// Last pair of bits of a gain.
         last_of_gain: Bit,
-        /// The error as a start takes it.
+        /// Error to load with a start.
         off: [I(c.widths.position); c.axes] as Elements(of_axes!("off")),
-        /// The normal error of each axis.
+        /// Normal error of this axis.
         normal: [I(c.widths.error()); c.axes] as Elements(of_axes!("normal")),
-        /// Multiplicand: the error, the distance along the path, the normal error.
+        /// Multiplicand: the error, then the distance along the path, then the normal error.
         word: [I(c.widths.error()); c.axes] as Elements(of_axes!("word")),
-        /// The multiplicand, as wide as a sum.
+        /// Multiplicand, extended to the width of the sum.
         wide: [I(c.widths.sum()); c.axes] as Elements(of_axes!("wide")),
-        /// Bits of its factor.
+        /// Current pair of bits of the factor.
         bits: [U(2); c.axes] as Elements(of_axes!("bits")),
-        /// The multiplicand by the weight of the lower bit.
+        /// Multiplicand at the weight of the lower bit.
         low: [I(c.widths.sum()); c.axes] as Elements(of_axes!("low")),
-        /// The multiplicand by the weight of the upper bit, which may be a sign.
+        /// Multiplicand at the weight of the upper bit, which is negative for a sign bit.
         high: [I(c.widths.sum()); c.axes] as Elements(of_axes!("high")),
-        /// Term of the pair of bits.
+        /// Term of the current pair of bits.
         term: [I(c.widths.sum()); c.axes] as Elements(of_axes!("term")),
-        /// The tangential error by the weight of the lower bit of its gain.
+        /// Tangential error at the weight of the lower bit of its gain.
         raised: [I(c.widths.sum()); c.axes] as Elements(of_axes!("raised")),
-        /// Term of the lower bit of that gain.
+        /// Term of the lower bit of the tangential gain.
         own_low: [I(c.widths.sum()); c.axes] as Elements(of_axes!("own_low")),
-        /// Term of the upper bit.
+        /// Term of the upper bit of the tangential gain.
         own_high: [I(c.widths.sum()); c.axes] as Elements(of_axes!("own_high")),
-        /// A product of each axis begins after this tick.
+        /// A product of each axis begins in the next tick.
         begins: Bit,
-        /// The projection plus the terms of the pairs.
+        /// Projection plus the terms of the current pairs.
         projected: I(c.widths.sum()),
-        /// The sums of the axes plus the terms of their pairs.
+        /// Sum of this axis plus the terms of its current pairs.
         total: [I(c.widths.sum()); c.axes] as Elements(of_axes!("total")),
-        /// A start is not taken.
+        /// A calculation is running; a start is ignored.
         pub busy: Bit,
     }
 }

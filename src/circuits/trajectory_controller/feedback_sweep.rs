@@ -1,5 +1,5 @@
-//! The error feedback's arithmetic as a law that can be swept: the feedback for any error, along
-//! any direction that is no longer than 1 in either axis.
+//! Law of the error feedback's arithmetic, which can be swept: the feedback for any error, along
+//! any direction that is at most 1 in each axis.
 //!
 //! ```text
 //!                   ┌────────────────┐
@@ -9,8 +9,8 @@
 //! ```
 //!
 //! A case gives errors and directions. The positions that lead to them wrap: the motor's position
-//! is the direction, in counts, and the path begins at the command. The start is high up to the
-//! last tick; only the first tick of it is taken.
+//! is the direction, in counts, and the path begins at the command. The start is high until the
+//! last tick; only its first tick has an effect.
 
 use super::path_point::{AXIS_NAMES, of_axes};
 use super::{ErrorFeedback, error_feedback};
@@ -35,18 +35,18 @@ impl FeedbackSweep {
 signals! { for FeedbackSweep as c;
     /// An axis of a case.
     pub struct AxisCase {
-        /// Command minus motor.
+        /// Command minus motor position.
         pub error: I(c.feedback.widths.position),
-        /// Direction: displacement in this axis along a count of the path.
+        /// Direction: displacement in this axis along one count of the path.
         pub way: I(c.feedback.widths.direction()),
     }
     /// A case.
     pub struct In {
-        /// The axes.
+        /// Errors and directions of the axes.
         pub axes: [AxisCase(c); c.feedback.axes] as Elements(&AXIS_NAMES),
-        /// T.
+        /// T: gain of the tangential error.
         pub tangential_gain: U(c.feedback.widths.gain),
-        /// N.
+        /// N: gain of the normal error.
         pub normal_gain: U(c.feedback.widths.gain),
     }
     /// Flip-flops.
@@ -63,18 +63,18 @@ signals! { for FeedbackSweep as c;
     }
     /// Observed signals.
     pub struct Net {
-        /// The feedback.
+        /// Feedback of this axis.
         pub sum: [I(c.feedback.widths.sum()); c.feedback.axes] as Elements(of_axes!("sum")),
         /// `done` in the last tick.
         pub done: Bit,
-        /// `done` in any other.
+        /// `done` was high in an earlier tick.
         pub early: Bit,
     }
 }
 
 impl Circuit for FeedbackSweep {
     const NAME: &'static str = "feedback_sweep";
-    const ABOUT: &'static str = "what is fed back from power-on";
+    const ABOUT: &'static str = "feedback of one calculation from power-on";
     records!(In, Reg, Net, Parts);
 
     fn tick(&self, i: In, q: Reg, p: Parts) -> (Net, Reg<Edge>) {

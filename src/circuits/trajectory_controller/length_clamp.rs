@@ -1,4 +1,4 @@
-//! Length clamp: a length is held on the path.
+//! Length clamp: limits a length to the path.
 //!
 //! ```text
 //!             ┌──────────────┐
@@ -7,10 +7,11 @@
 //!             └──────────────┘
 //! ```
 //!
-//! Departure: the text does not say what happens where the tangential response overshoots the
-//! path's end, as it does with K2 < 4·K1. There is no path beyond it: the reference point stays at
-//! the end. The command's length is clamped too, whatever the profile says. With `back`, a length
-//! is clamped after a subtraction, which gives the point behind another.
+//! Departure: the text does not say what happens where the tangential response overshoots the end
+//! of the path, as it does with K2 < 4·K1. There is no path beyond the end, so the reference point
+//! stays at the end. The command's length is clamped too, whatever the profile says. With `back`, a
+//! distance is subtracted from the length before it is clamped, which gives a point behind another
+//! one.
 
 use crate::prelude::*;
 
@@ -27,25 +28,25 @@ pub struct LengthClamp {
 signals! { for LengthClamp as c;
     /// Input ports.
     pub struct In {
-        /// A length along the path.
+        /// Length along the path.
         pub length: I(c.width),
         /// L: length of the path; not negative.
         pub path_end: I(c.width),
     }
     /// Nets.
     pub struct Net {
-        /// The length minus `back`.
+        /// Length minus `back`.
         less: I(c.width + usize::from(c.back > 0)),
         /// `less` is beyond the end.
         beyond: Bit,
-        /// `less`, at least 0 and at most `path_end`.
+        /// `less`, limited to 0 … `path_end`.
         pub clamped: U(c.width),
     }
 }
 
 impl Circuit for LengthClamp {
     const NAME: &'static str = "length_clamp";
-    const ABOUT: &'static str = "holds a length on the path";
+    const ABOUT: &'static str = "limits a length to the path";
     records!(In, Nothing, Net);
 
     fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {

@@ -1,4 +1,4 @@
-//! Length powers: square and cube of the length on a spline, as parts of its longest.
+//! Length powers: square and cube of the length on a spline, in proportion to its longest length.
 //!
 //! ```text
 //!           ┌───────────────┐
@@ -8,9 +8,9 @@
 //!           └───────────────┘
 //! ```
 //!
-//! With u = offset and n = shift, u < 2^n: u²/2^n, then u³/2^2n, each rounded down to an inner unit.
-//! So all three powers are below 2^n guard units, and a coefficient of each is a part of a whole, as
-//! a line's is (¶0031: "coefficients as path data").
+//! With u = offset and n = shift, u < 2^n: computes u²/2^n, then u³/2^2n, each rounded down to an
+//! inner unit. So all three powers are below 2^n guard units, and the coefficients of all powers
+//! have the same format as those of a line (¶0031: "coefficients as path data").
 
 use super::widths::PointWidths;
 use crate::prelude::*;
@@ -27,7 +27,7 @@ const CUBE: u64 = 2;
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LengthPowers {
-    /// Its widths.
+    /// Word widths.
     pub widths: PointWidths,
 }
 
@@ -41,49 +41,49 @@ impl LengthPowers {
 signals! { for LengthPowers as c;
     /// Input ports.
     pub struct In {
-        /// Starts, unless powers are being computed.
+        /// Starts a calculation; ignored while `busy`.
         pub start: Bit,
-        /// The length on the spline in guard units, below 2^shift; constant from `start` to `done`.
+        /// Length on the spline in guard units, below 2^shift; constant from `start` to `done`.
         pub offset: U(c.widths.point),
-        /// Bits of the spline's length, 1 to P − 1; constant from `start` to `done`.
+        /// n: bits of the spline's longest length, 1 to P − 1; constant from `start` to `done`.
         pub shift: U(6),
     }
     /// Flip-flops.
     pub struct Reg {
         /// State of the sequence.
         state: U(2) as States(STATES) = 0,
-        /// Remaining bits of the offset after this one.
+        /// Bits of the offset that follow the current one.
         count: U(6) = 0,
         /// Remaining bits of the offset.
         bits: U(c.widths.point) as Hex = 0,
-        /// Multiplicand of the offset, with R − P bits below the guard unit: the offset, then its
-        /// square, also from `done` on.
+        /// Multiplicand, with R − P bits below the guard unit: the offset, then the square, also
+        /// from `done` on.
         pub factor: U(c.widths.radius) as Analog = 0,
-        /// Partial product, in units of the next bit's weight; from `done` on the cube.
+        /// Partial product, in units of the next bit's weight; the cube from `done` on.
         pub product: U(c.widths.radius) as Analog = 0,
         /// Square and cube are valid in this tick.
         pub done: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A start is taken.
+        /// A start is accepted.
         take: Bit,
-        /// The bit is the offset's last.
+        /// The current bit is the last of the offset.
         last: Bit,
-        /// Product plus the term of this bit.
+        /// Partial product plus the term of the current bit.
         total: U(c.widths.radius),
-        /// The square is complete after this tick.
+        /// The square is complete at the end of this tick.
         squared: Bit,
-        /// The cube is.
+        /// The cube is complete at the end of this tick.
         complete: Bit,
-        /// A start is not taken.
+        /// A calculation is running; a start is ignored.
         pub busy: Bit,
     }
 }
 
 impl Circuit for LengthPowers {
     const NAME: &'static str = "length_powers";
-    const ABOUT: &'static str = "square and cube of a length as parts of its longest, a bit a tick";
+    const ABOUT: &'static str = "square and cube of a length on a spline, one bit per tick";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

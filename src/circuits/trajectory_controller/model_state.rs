@@ -1,5 +1,5 @@
-//! Integrators 24, 25 and subtractors 20, 22 of the reference model 12 (¶0027), around a scaler that
-//! is both multipliers, 21 and 23.
+//! Integrators 24, 25 and subtractors 20, 22 of the reference model 12 (¶0027). One scaler serves
+//! as both multipliers, 21 and 23.
 //!
 //! ```text
 //!                      ┌─────────────┐
@@ -11,8 +11,8 @@
 //! ```
 //!
 //! a = K2·(K1·(u − p) − v), p' = p + v, v' = v + a, all from the values before the step. The first
-//! product keeps its fraction; the acceleration alone is rounded. Magnitudes are scaled and signs
-//! put back, so a mirrored target gives the mirrored response.
+//! product keeps its fraction; only the acceleration is rounded. Magnitudes are scaled and their
+//! signs restored, so a mirrored target gives the mirrored response.
 
 use super::Rounding;
 use crate::prelude::*;
@@ -46,7 +46,7 @@ signals! { for ModelWidths as c;
     pub struct ModelGains {
         /// K1, in units of 2^−(K − 1) per period; constant during a step.
         pub gain_1: U(c.gain),
-        /// K2, in the same unit; constant during a step.
+        /// K2, in units of 2^−(K − 1) per period; constant during a step.
         pub gain_2: U(c.gain),
     }
 }
@@ -55,7 +55,7 @@ signals! { for ModelWidths as c;
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelState {
-    /// Its widths.
+    /// Word widths.
     pub widths: ModelWidths,
     /// Rounding of the acceleration.
     pub rounding: Rounding,
@@ -64,65 +64,65 @@ pub struct ModelState {
 signals! { for ModelState as c;
     /// Input ports.
     pub struct In {
-        /// An interpolation period begins; not taken while `busy`.
+        /// An interpolation period begins; ignored while `busy`.
         pub step: Bit,
-        /// Sets the position to the target, at rest; a running step is aborted.
+        /// Sets the position to the target, at rest; aborts a running step.
         pub preset: Bit,
-        /// u: the target position, taken with `step`.
+        /// u: target position in guard units; sampled with `step`.
         pub target: I(c.widths.position),
         /// K1 and K2.
         pub gains: ModelGains(&c.widths) as Flat,
-        /// The scaler is done.
+        /// The scaler has a result.
         pub done: Bit,
-        /// Its result.
+        /// Result of the scaler.
         pub scaled: U(c.widths.product()),
     }
     /// Flip-flops.
     pub struct Reg {
         /// State of the sequence.
         state: U(2) as States(STATES) = 0,
-        /// u − p is negative; then: K1(u − p) − v is negative.
+        /// Sign of the value being scaled: u − p, then K1(u − p) − v.
         negative: Bit = 0,
-        /// p: the model's position.
+        /// p: position of the model, in guard units.
         pub position: I(c.widths.position) as Analog = 0,
-        /// v: its velocity, per period.
+        /// v: velocity of the model, per period.
         pub velocity: I(c.widths.position) as Analog = 0,
-        /// a: its acceleration, per period squared.
+        /// a: acceleration of the model, per period squared.
         pub acceleration: I(c.widths.position) as Analog = 0,
-        /// High in the tick with new values.
+        /// High for one tick: the state has new values.
         pub fresh: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A step is taken.
+        /// A step is accepted.
         take: Bit,
-        /// The first product is ready.
+        /// The first product is ready, and the second begins.
         second: Bit,
-        /// The second product is ready.
+        /// The second product is ready, and the step ends.
         complete: Bit,
         /// 20: u − p.
         error: I(c.widths.position),
-        /// K1(u − p), with K − 1 bits of fraction.
+        /// K1(u − p), with K − 1 fraction bits.
         demand: I(c.widths.product()),
-        /// v, with K − 1 bits of fraction.
+        /// v, with K − 1 fraction bits.
         motion: I(c.widths.product()),
-        /// 22: K1(u − p) − v, with the fraction.
+        /// 22: K1(u − p) − v, with K − 1 fraction bits.
         difference: I(c.widths.product()),
-        /// The scaler begins.
+        /// Starts the scaler.
         pub scale: Bit,
-        /// With this value,
+        /// Value for the scaler.
         pub value: U(c.widths.product()),
-        /// by this gain.
+        /// Gain for the scaler.
         pub gain: U(c.widths.gain),
         /// Product plus the rounding term.
         raised: U(c.widths.product()),
-        /// `raised` without its fraction.
+        /// `raised` without its fraction bits.
         cut: U(c.widths.product()),
-        /// |a|.
+        /// Magnitude of the new acceleration.
         amount: I(c.widths.position),
-        /// a.
+        /// New acceleration.
         change: I(c.widths.position),
-        /// A step is not taken.
+        /// A step is running; another one is ignored.
         pub busy: Bit,
     }
 }

@@ -9,8 +9,8 @@
 //!             └─────────────┘
 //! ```
 //!
-//! From power-on and from `restart` to its first length there is no path: its segments may be
-//! written, and no point is looked up.
+//! From power-on, and from `restart`, until the first length there is no path: its segments may be
+//! written, and no point is computed.
 
 use crate::prelude::*;
 
@@ -29,27 +29,27 @@ signals! { for PathLength as c;
     pub struct In {
         /// An interpolation period begins.
         pub sample: Bit,
-        /// The profile has a length for it.
+        /// The profile has a length for the period.
         pub present: Bit,
-        /// The length.
+        /// Length along the path, from the profile.
         pub profile: I(c.width),
-        /// Another path: there is none before its first length. A period that has begun is
-        /// completed: segments are written from the next beginning of a period on.
+        /// Selects another path: there is no path until its first length. A period that has begun
+        /// is completed, so segments may be written from the next start of a period on.
         pub restart: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// qc: the length along the path.
+        /// qc: length along the path, in guard units.
         pub length: I(c.width) as Analog = 0,
-        /// There is no path yet.
+        /// There is no path.
         pub waiting: Bit = 1,
-        /// A period has begun.
+        /// A period has begun in the tick before.
         begun: Bit = 0,
         /// The length is the first of a path: the tangential response is set to it.
         pub preset: Bit = 0,
-        /// A period has begun with the present length.
+        /// A period begins with the present length.
         pub fresh: Bit = 0,
-        /// A period has begun without a path: commands stay as they are.
+        /// A period begins without a path: the commands keep their values.
         pub held: Bit = 0,
     }
     /// Nets.
@@ -61,7 +61,7 @@ signals! { for PathLength as c;
 
 impl Circuit for PathLength {
     const NAME: &'static str = "path_length";
-    const ABOUT: &'static str = "how far along the path the command is";
+    const ABOUT: &'static str = "length of the command along the path";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

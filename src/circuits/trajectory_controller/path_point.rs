@@ -1,4 +1,4 @@
-//! Path point: the point at a length along the path (equations (1) and (5)).
+//! Path point: computes the point at a length along the path (equations (1) and (5)).
 //!
 //! ```text
 //!                      ┌──────────────────────────────┐
@@ -9,9 +9,9 @@
 //!                      └──────────────────────────────┘
 //! ```
 //!
-//! Axis distribution 3 is this circuit with the length q_c from interpolation and acceleration 1;
-//! reference point 2 is this circuit too, with the same segments, with the length q_s of the
-//! tangential servo response. The point does not depend on earlier lengths.
+//! Axis distribution 3 is this circuit with the length q_c from interpolation and acceleration 1.
+//! Reference point 2 is this circuit with the length q_s of the tangential servo response, and the
+//! same segments. The point does not depend on earlier lengths.
 
 use super::widths::PointWidths;
 use super::{
@@ -23,10 +23,10 @@ use crate::prelude::*;
 
 /// Names of the axes.
 pub const AXIS_NAMES: [&str; 4] = ["x", "y", "z", "w"];
-/// The most axes.
+/// Largest number of axes.
 pub const AXES: usize = AXIS_NAMES.len();
 
-/// Names of a signal of each of them.
+/// Names of a signal, one for each axis.
 macro_rules! of_axes {
     ($name:literal) => {
         &[
@@ -43,11 +43,11 @@ pub(super) use of_axes;
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PathPoint {
-    /// Its widths, by name.
+    /// Word widths, by name.
     pub widths: PointWidths,
-    /// The number of axes, 1 to 4: the fourth has words of its own in a segment.
+    /// Number of axes, 1 to 4. A fourth axis has its own words in a segment.
     pub axes: usize,
-    /// Word of a segment that is the radius of its arc.
+    /// Number of the segment word that is the radius of an arc.
     pub radius_word: u64,
 }
 
@@ -91,17 +91,17 @@ impl PathPoint {
 signals! { for PointWidths as c;
     /// Segments of a path, as the control computer writes them.
     pub struct PathWrite {
-        /// Writes the beginning of a segment of the path.
+        /// Writes the length at which a segment begins.
         pub write_begin: Bit,
-        /// The segment.
+        /// Number of the segment to write.
         pub begin_segment: U(c.segment),
-        /// The length at which it begins.
+        /// Length at which the segment begins, in guard units.
         pub begin_length: U(c.point),
         /// Writes a word of a segment.
         pub write_path: Bit,
-        /// The segment, and in the lowest bits the number of its word.
+        /// Number of the segment, with the number of the word in the lowest bits.
         pub path_address: U(c.address()) as Hex,
-        /// Its data.
+        /// Word to write.
         pub path_data: U(c.data) as Hex,
     }
 }
@@ -109,23 +109,23 @@ signals! { for PointWidths as c;
 signals! { for PathPoint as c;
     /// Input ports.
     pub struct In {
-        /// Starts, unless a point is being computed.
+        /// Starts the computation of a point; ignored while `busy`.
         pub start: Bit,
-        /// The length along the path, 0 up to its end; constant until the search has begun, in the
-        /// tick after `start`.
+        /// Length along the path, from 0 to its end, in guard units; sampled in the tick after
+        /// `start`.
         pub length: U(c.widths.point),
-        /// The path's last segment.
+        /// Number of the last segment of the path.
         pub last: U(c.widths.segment),
-        /// The path's segments, as they are written.
+        /// Port through which segments of the path are written.
         pub path: PathWrite(&c.inner()) as Flat,
     }
     /// The blocks.
     pub struct Parts {
-        /// Search of the segment.
+        /// Search for the segment.
         pub search: Part<SegmentSearch>(SegmentSearch { widths: c.widths }),
-        /// The segments.
+        /// Memory of the segments.
         pub store: Part<SegmentStore>(SegmentStore { widths: c.inner() }),
-        /// Sequence of the blocks.
+        /// Sequencer of the blocks.
         pub sequencer: Part<PointSequencer>(PointSequencer {
             widths: c.inner(),
             radius_word: c.radius_word,
@@ -136,19 +136,19 @@ signals! { for PathPoint as c;
         pub cordic: Part<Cordic>(c.cordic()),
         /// Length to powers.
         pub powers: Part<LengthPowers>(LengthPowers { widths: c.widths }),
-        /// Bit index of the coefficients.
+        /// Bit counter of the coefficients.
         pub control: Part<CoefficientControl>(c.control()),
-        /// The axes.
+        /// Rows of the axes.
         pub axes: [Part<AxisRow>(AxisRow { widths: c.inner(), coordinate: k as u64 }); k in c.axes]
             as Elements(&AXIS_NAMES),
     }
     /// Output ports.
     pub struct Net {
-        /// The point.
+        /// Coordinate of the point, in guard units.
         pub points: [I(c.widths.point); c.axes] as Elements(of_axes!("point")),
-        /// Segment of the point.
+        /// Number of the segment of the point.
         pub segment: U(c.widths.segment),
-        /// The point is valid in this tick.
+        /// High for one tick: the point is valid.
         pub done: Bit,
         /// A point is being computed.
         pub busy: Bit,
@@ -157,7 +157,7 @@ signals! { for PathPoint as c;
 
 impl Circuit for PathPoint {
     const NAME: &'static str = "path_point";
-    const ABOUT: &'static str = "the point at a length along a path of lines, arcs and splines";
+    const ABOUT: &'static str = "point at a length along a path of lines, arcs and splines";
     records!(In, Nothing, Net, Parts);
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {

@@ -9,33 +9,32 @@
 //!                      └─────────────┘
 //! ```
 //!
-//! The commands are corrected at the same tick of every period, however long its points took: the
-//! servo controls sample their motors then, and the move of a motor between two samples is its
-//! speed.
-//!
-//! With the first point of a path the servo responses are set to it, at rest: the path begins
-//! where the machine is, and rounding errors of the path before are not corrected in this one.
+//! The commands are corrected in the same tick of every period, whatever time the points took. The
+//! servo controls then sample their motors at equal intervals, and the distance between two samples
+//! is the speed of a motor.
+//! With the first point of a path, the servo responses are set to this point, at rest. So a path
+//! begins where the machine is, and rounding errors of the previous path are not corrected in the
+//! new one.
 
 use crate::prelude::*;
 
 /// Join of the reference point and the servo responses.
-///
-/// `correct` is high `wait` + 2 ticks after `begins`, or later where points take longer; after
-/// `held` too, but in the next tick if `wait` is 0.
+/// `correct` is high `wait` + 2 ticks after `begins`, or later if points take longer. After `held`
+/// it comes at the same tick; if `wait` is 0, it comes one tick after `held`.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PeriodJoin {
-    /// Ticks that every period waits, below 1023: those of the longest.
+    /// Waiting time of every period in ticks, below 1023: the longest time of any period.
     pub wait: u64,
 }
 
 signals! { for PeriodJoin as c;
     /// Input ports.
     pub struct In {
-        /// A period begins with a length.
+        /// A period begins with a length on the path.
         pub begins: Bit,
-        /// A period begins without a path: the corrected commands stay, the servo controls
-        /// continue.
+        /// A period begins without a path: the corrected commands keep their values, and the servo
+        /// controls continue.
         pub held: Bit,
         /// The position command is valid.
         pub placed: Bit,
@@ -45,16 +44,16 @@ signals! { for PeriodJoin as c;
         pub answered: Bit,
         /// The torques are valid.
         pub driven: Bit,
-        /// Another path: its first point is awaited, and `late` goes.
+        /// Selects another path: its first point is awaited. Clears `late`.
         pub clear: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
         /// The first point of a path is awaited.
         first: Bit = 1,
-        /// The servo responses go to the position command.
+        /// Sets the servo responses to the position command.
         pub preset: Bit = 0,
-        /// The servo responses take a step towards the position command.
+        /// Advances the servo responses towards the position command.
         pub step: Bit = 0,
         /// The reference point is awaited.
         refers: Bit = 0,
@@ -62,20 +61,20 @@ signals! { for PeriodJoin as c;
         answers: Bit = 0,
         /// The correction is awaited.
         pending: Bit = 0,
-        /// Ticks of the period, up to those that are waited for.
+        /// Ticks since the period began, up to `wait`.
         count: U(10) = 0,
         /// A period is running.
         pub busy: Bit = 0,
-        /// Reference point and servo responses are valid: the commands are corrected.
+        /// Corrects the commands: reference point and servo responses are valid.
         pub correct: Bit = 0,
-        /// A period began before the one before was over; until the next path.
+        /// A period has begun before the previous one was complete; cleared by `clear`.
         pub late: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// The period is as old as a correction must be.
+        /// The waiting time of the correction is over.
         due: Bit,
-        /// Reference point and servo responses are valid, and the correction is due.
+        /// The reference point and the servo responses are valid, and the correction is due.
         complete: Bit,
         /// A period begins.
         period: Bit,

@@ -1,4 +1,4 @@
-//! Point sequencer: search, segment, angle or powers, point, one after the other.
+//! Point sequencer: runs search, segment, angle or powers, and point, one after the other.
 //!
 //! ```text
 //!                        ┌─────────────────┐
@@ -27,54 +27,54 @@ const TURN: u64 = 4;
 const PROJECT: u64 = 5;
 const RAISE: u64 = 6;
 
-/// Word that is the radius of an arc.
+/// Number of the segment word that is the radius of an arc.
 pub const RADIUS: u64 = 2;
 
-/// Word that is its radius with the steady correction.
+/// Number of the segment word that is the radius with the steady correction.
 pub const STEADY_RADIUS: u64 = 12;
 
 /// Sequencer of the blocks of a path point.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PointSequencer {
-    /// Its widths.
+    /// Word widths.
     pub widths: PointWidths,
-    /// Word of a segment that is the radius of its arc.
+    /// Number of the segment word that is the radius of an arc.
     pub radius_word: u64,
 }
 
 signals! { for PointSequencer as c;
     /// Input ports.
     pub struct In {
-        /// Starts, unless a point is being computed.
+        /// Starts the computation of a point; ignored while `busy`.
         pub start: Bit,
-        /// The search has the segment.
+        /// The search has found the segment.
         pub found: Bit,
-        /// The segment is ready.
+        /// All words of the segment have been sent.
         pub loaded: Bit,
-        /// The angle is ready.
+        /// The angle is valid.
         pub measured: Bit,
-        /// The point on the arc is ready.
+        /// The point on the arc is valid.
         pub turned: Bit,
-        /// The powers of the length are ready.
+        /// The powers of the length are valid.
         pub raised: Bit,
-        /// The point is ready.
+        /// The coordinates of the point are valid.
         pub projected: Bit,
         /// `data` is word `word` of the segment.
         pub load: Bit,
-        /// Number of the word.
+        /// Number of the word in `data`.
         pub word: U(c.widths.word),
-        /// Its data.
+        /// Word of the segment.
         pub data: U(c.widths.data) as Hex,
-        /// Length from the segment's beginning.
+        /// Length from the start of the segment, in guard units.
         pub offset: U(c.widths.point),
         /// First coordinate of the point on the arc.
         pub arc_along: I(c.widths.radius),
-        /// Second coordinate.
+        /// Second coordinate of the point on the arc.
         pub arc_across: I(c.widths.radius),
-        /// The length's square on a spline.
+        /// Square of the length on a spline.
         pub square: U(c.widths.radius),
-        /// Its cube.
+        /// Cube of the length on a spline.
         pub cube: U(c.widths.radius),
     }
     /// Flip-flops.
@@ -87,52 +87,52 @@ signals! { for PointSequencer as c;
         spatial: Bit = 0,
         /// Shift of the angle, or of the powers.
         pub shift: U(6) = 0,
-        /// Curvature of the arc.
+        /// Curvature of the arc, from the segment.
         pub curvature: U(c.widths.curvature) as Hex = 0,
-        /// Radius of the arc, divided by the gain of CORDIC.
+        /// Radius of the arc, divided by the gain of the CORDIC.
         pub radius: I(c.widths.radius) = 0,
-        /// The search begins.
+        /// Starts the search.
         pub search: Bit = 0,
-        /// The segment is fetched.
+        /// Starts to fetch the segment.
         pub fetch: Bit = 0,
-        /// The angle is measured.
+        /// Starts the computation of the angle.
         pub measure: Bit = 0,
-        /// The arc's radius is turned.
+        /// Starts the CORDIC.
         pub turn: Bit = 0,
-        /// The length is raised to its powers.
+        /// Starts the computation of the powers.
         pub raise: Bit = 0,
-        /// The point is projected to the axes.
+        /// Starts the rows of the axes.
         pub project: Bit = 0,
-        /// The point is valid in this tick.
+        /// High for one tick: the point is valid.
         pub done: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A start is taken.
+        /// A start is accepted.
         take: Bit,
-        /// The search is over.
+        /// The search ends.
         searched: Bit,
-        /// The segment is ready.
+        /// The segment has been fetched.
         fetched: Bit,
-        /// The word is a segment's first.
+        /// The word is the first of a segment.
         header: Bit,
-        /// The segment is ready, an arc or a helix.
+        /// The segment has been fetched, and is an arc or a helix.
         on_arc: Bit,
-        /// The segment is ready, a spline.
+        /// The segment has been fetched, and is a spline.
         on_spline: Bit,
-        /// A line, the point on an arc, or the powers are ready.
+        /// The coordinates within the segment are valid.
         placed: Bit,
-        /// The angle is ready.
+        /// The angle is valid.
         angled: Bit,
-        /// The point is ready.
+        /// The point is complete.
         reached: Bit,
-        /// The length on the segment, with the bits below the guard unit.
+        /// Length on the segment, with R − P bits below the guard unit.
         ahead: I(c.widths.radius),
-        /// First coordinate of the point in the segment.
+        /// First coordinate of the point within the segment.
         pub along: I(c.widths.radius),
-        /// Second coordinate: the length's square on a spline, 0 on a line.
+        /// Second coordinate: on a spline the square of the length, on a line 0.
         pub across: I(c.widths.radius),
-        /// Third coordinate: the length on a helix, its cube on a spline, else 0.
+        /// Third coordinate: on a helix the length, on a spline its cube, otherwise 0.
         pub third: I(c.widths.radius),
         /// A point is being computed.
         pub busy: Bit,
@@ -141,7 +141,8 @@ signals! { for PointSequencer as c;
 
 impl Circuit for PointSequencer {
     const NAME: &'static str = "point_sequencer";
-    const ABOUT: &'static str = "search, segment, angle or powers, point, one after the other";
+    const ABOUT: &'static str =
+        "runs search, segment, angle or powers, and point, one after the other";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

@@ -9,8 +9,8 @@
 //!                  └─────────────────┘
 //! ```
 //!
-//! This circuit is also the servo response of an axis 51, 52, the tangential servo response 50,
-//! and the model 12 inside a servo control 11: all of them agree to the bit (¶0030).
+//! This circuit is also the servo response 51, 52 of an axis, the tangential servo response 50, and
+//! the model 12 inside a servo control 11. All of them agree to the bit (¶0030).
 
 use super::model_state::{ModelGains, ModelWidths};
 use super::{ModelState, Rounding, model_state};
@@ -21,7 +21,7 @@ use crate::prelude::*;
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReferenceModel {
-    /// Its widths.
+    /// Word widths.
     pub widths: ModelWidths,
     /// Rounding of the acceleration.
     pub rounding: Rounding,
@@ -45,40 +45,40 @@ impl ReferenceModel {
 signals! { for ReferenceModel as c;
     /// Input ports.
     pub struct In {
-        /// An interpolation period begins; not taken while `busy`.
+        /// An interpolation period begins; ignored while `busy`.
         pub step: Bit,
-        /// Sets the position to the target, at rest; a running step is aborted.
+        /// Sets the position to the target, at rest; aborts a running step.
         pub preset: Bit,
-        /// u: the target position, taken with `step`.
+        /// u: target position in guard units; sampled with `step`.
         pub target: I(c.widths.position),
         /// K1 and K2.
         pub gains: ModelGains(&c.widths) as Flat,
     }
     /// The blocks inside.
     pub struct Parts {
-        /// 20, 22, 24, 25.
+        /// Integrators 24, 25 and subtractors 20, 22.
         pub integrators: Part<ModelState>(ModelState { widths: c.widths, rounding: c.rounding }),
-        /// 21, 23.
+        /// Multipliers 21, 23.
         pub scaler: Part<Scaler>(c.scaler()),
     }
     /// Output ports.
     pub struct Net {
-        /// p: the model's position.
+        /// p: position of the model, in guard units.
         pub position: I(c.widths.position) as Analog,
-        /// v: its velocity, per period.
+        /// v: velocity of the model, per period.
         pub velocity: I(c.widths.position) as Analog,
-        /// a: its acceleration, per period squared.
+        /// a: acceleration of the model, per period squared.
         pub acceleration: I(c.widths.position) as Analog,
-        /// High in the tick with new values.
+        /// High for one tick: the state has new values.
         pub fresh: Bit,
-        /// A step is not taken.
+        /// A step is running; another one is ignored.
         pub busy: Bit,
     }
 }
 
 impl Circuit for ReferenceModel {
     const NAME: &'static str = "reference_model";
-    const ABOUT: &'static str = "what the servo system will answer to a position command";
+    const ABOUT: &'static str = "predicts the response of the servo system to a position command";
     records!(In, Nothing, Net, Parts);
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {

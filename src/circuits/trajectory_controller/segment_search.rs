@@ -1,4 +1,4 @@
-//! Segment search: which segment of the path a length belongs to (¶0051).
+//! Segment search: finds the segment of the path that contains a length (¶0051).
 //!
 //! ```text
 //!                      ┌────────────────┐
@@ -8,9 +8,9 @@
 //!                      └────────────────┘
 //! ```
 //!
-//! A binary search in the lengths at which the segments begin, from the highest bit of the number
-//! down. The result depends on the length alone, not on earlier searches: "if q_s is less than l1,
-//! on P0P1; if it is at least l1 and less than l1 + l2, on P1P2".
+//! A binary search among the lengths at which the segments begin, from the highest bit of the
+//! segment's number down. The result depends on the length alone, not on earlier searches: "if q_s
+//! is less than l1, on P0P1; if it is at least l1 and less than l1 + l2, on P1P2".
 
 use super::widths::PointWidths;
 use crate::prelude::*;
@@ -27,7 +27,7 @@ const COMPARE: u64 = 2;
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SegmentSearch {
-    /// Its widths.
+    /// Word widths.
     pub widths: PointWidths,
 }
 
@@ -41,17 +41,17 @@ impl SegmentSearch {
 signals! { for SegmentSearch as c;
     /// Input ports.
     pub struct In {
-        /// Starts a search, unless one is running.
+        /// Starts a search; ignored while one is running.
         pub start: Bit,
-        /// The length along the path; taken with `start`.
+        /// Length along the path in guard units; sampled with `start`.
         pub length: U(c.widths.point),
-        /// The path's last segment; constant during a search.
+        /// Number of the last segment of the path; constant during a search.
         pub last: U(c.widths.segment),
-        /// Writes the beginning of a segment; not during a search.
+        /// Writes the length at which a segment begins. Not allowed during a search.
         pub write: Bit,
-        /// The segment.
+        /// Number of the segment to write.
         pub write_segment: U(c.widths.segment),
-        /// The length at which it begins: 0 for segment 0, and growing.
+        /// Length at which the segment begins: 0 for segment 0, increasing with the number.
         pub write_begin: U(c.widths.point),
     }
     /// Flip-flops and memory.
@@ -60,37 +60,37 @@ signals! { for SegmentSearch as c;
         begins: Ram(c.widths.segment, c.widths.point),
         /// State of the sequence.
         state: U(2) as States(STATES) = 0,
-        /// The length that is looked for.
+        /// Length that is searched for.
         wanted: U(c.widths.point) = 0,
-        /// The bit of the number that is decided.
+        /// Bit of the number that is being decided, as a one-hot word.
         weight: U(c.widths.segment) as Hex = 0,
-        /// The bits that are decided; the segment, from `done` on.
+        /// Bits decided so far; from `done` on the number of the segment.
         pub segment: U(c.widths.segment) = 0,
         /// Length at which the tried segment begins.
         tried_begin: U(c.widths.point) = 0,
-        /// Length from the beginning of the last segment that fitted.
+        /// Length from the start of the last segment that fitted.
         pub offset: U(c.widths.point) = 0,
-        /// Segment and offset are valid in this tick.
+        /// High for one tick: segment and offset are valid.
         pub done: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A start is taken.
+        /// A start is accepted.
         take: Bit,
-        /// The segment that is tried: with the bit.
+        /// Number of the segment that is tried: the bits decided so far, and the bit being decided.
         tried: U(c.widths.segment),
-        /// The length is at or beyond that beginning, and the path has the segment.
+        /// The length is not before the start of the tried segment, and the path has this segment.
         fits: Bit,
         /// The last bit is decided.
         over: Bit,
-        /// A start is not taken.
+        /// A search is running; a start is ignored.
         pub busy: Bit,
     }
 }
 
 impl Circuit for SegmentSearch {
     const NAME: &'static str = "segment_search";
-    const ABOUT: &'static str = "the segment of a path that holds a length, by bisection";
+    const ABOUT: &'static str = "finds the segment of a path that contains a length, by bisection";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

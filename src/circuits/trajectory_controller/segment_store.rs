@@ -1,4 +1,4 @@
-//! Segment store: holds the path's segments, and sends one of them to the blocks.
+//! Segment store: holds the segments of the path and sends one of them to the blocks.
 //!
 //! ```text
 //!                           ┌───────────────┐
@@ -7,20 +7,20 @@
 //!                           └───────────────┘
 //! ```
 //!
-//! A segment is 16 words, or 20 where there is a fourth axis. They are written before the path
-//! begins; while it runs any of them is fetched, as often as a length belongs to it.
+//! A segment has 16 words, or 20 with a fourth axis. Segments are written before the path begins.
+//! While the path runs, any segment can be fetched, any number of times.
 
 use super::widths::PointWidths;
 use crate::prelude::*;
 
 /// Store of 2^A segments.
 ///
-/// `load` is high from the second tick after `fetch` on, for as many ticks as there are words;
-/// `loaded` in the tick after them.
+/// `load` is high from the second tick after `fetch` on, for as many ticks as a segment has words.
+/// `loaded` is high in the tick after that.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SegmentStore {
-    /// Its widths.
+    /// Word widths.
     pub widths: PointWidths,
 }
 
@@ -41,44 +41,44 @@ signals! { for SegmentStore as c;
     pub struct In {
         /// Writes a word.
         pub write: Bit,
-        /// The segment, and in the lowest bits the number of its word.
+        /// Number of the segment, with the number of the word in the lowest bits.
         pub write_address: U(c.widths.address()) as Hex,
-        /// Its data.
+        /// Word to write.
         pub write_data: U(c.widths.data) as Hex,
-        /// A segment goes to the blocks, unless words are being read.
+        /// Starts to send a segment to the blocks; ignored while words are being read.
         pub fetch: Bit,
-        /// The segment to fetch; constant while it is being sent.
+        /// Number of the segment to fetch; constant while it is being sent.
         pub segment: U(c.widths.segment),
     }
     /// Flip-flops and memory.
     pub struct Reg {
-        /// The segments.
+        /// Memory of the segments.
         segments: Ram(c.widths.address(), c.widths.data),
-        /// A segment is being sent: its words are read.
+        /// Words of a segment are being read.
         reading: Bit = 0,
-        /// The word that is read.
+        /// Number of the word being read.
         read_word: U(c.widths.word) = 0,
-        /// A word of a segment is at `word` and `data`.
+        /// `word` and `data` hold a word of a segment.
         pub load: Bit = 0,
-        /// Its number.
+        /// Number of the word in `data`.
         pub word: U(c.widths.word) = 0,
-        /// The word.
+        /// Word of the segment.
         pub data: U(c.widths.data) as Hex = 0,
-        /// The last word was there in the tick before.
+        /// The last word of a segment was sent in the tick before.
         pub loaded: Bit = 0,
     }
     /// Nets.
     pub struct Net {
         /// Read address.
         read_address: U(c.widths.address()) as Hex,
-        /// The last word is read.
+        /// The last word of a segment is being read.
         last: Bit,
     }
 }
 
 impl Circuit for SegmentStore {
     const NAME: &'static str = "segment_store";
-    const ABOUT: &'static str = "the segments of a path, fetched word by word";
+    const ABOUT: &'static str = "holds the segments of a path and sends them word by word";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

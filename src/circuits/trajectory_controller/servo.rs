@@ -1,4 +1,5 @@
-//! Servo control 11 of one axis (Fig. 2): reference model 12, and the loops that hold the motor to it.
+//! Servo control 11 of one axis (Fig. 2): reference model 12 and the loops that make the motor
+//! follow it.
 //!
 //! ```text
 //!                       ┌───────────────────────────┐
@@ -19,7 +20,7 @@ use crate::prelude::*;
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Servo {
-    /// Its widths.
+    /// Word widths.
     pub widths: ServoWidths,
     /// Rounding of its model.
     pub rounding: Rounding,
@@ -53,15 +54,16 @@ signals! { for Servo as c;
     pub struct In {
         /// The corrected command is new.
         pub step: Bit,
-        /// Between two paths: sets the model to the target, at rest, and restarts the loops.
+        /// Sets the model to the target, at rest, and restarts the loops. For use between two
+        /// paths.
         pub preset: Bit,
-        /// Pd: the corrected position command in guard units; constant during a step.
+        /// Pd: corrected position command in guard units; constant during a step.
         pub target: I(c.widths.position),
-        /// Encoder, channel A.
+        /// Channel A of the encoder, asynchronous.
         pub a: Bit,
-        /// Channel B.
+        /// Channel B of the encoder, asynchronous.
         pub b: Bit,
-        /// The counter to 0.
+        /// Clears `position` and `lost`.
         pub home: Bit,
         /// K1 and K2.
         pub model_gains: ModelGains(&c.widths.model()) as Flat,
@@ -72,24 +74,24 @@ signals! { for Servo as c;
     pub struct Parts {
         /// Reference model 12.
         pub model: Part<ReferenceModel>(c.model()),
-        /// Position of the motor.
+        /// Counter of the motor's position.
         pub detector: Part<QuadratureCounter>(QuadratureCounter { width: c.widths.count }),
-        /// 26 to 31.
+        /// Blocks 26 to 31.
         pub arithmetic: Part<ServoArithmetic>(ServoArithmetic { widths: c.widths }),
-        /// Its products.
+        /// Multiplier of the arithmetic.
         pub scaler: Part<Scaler>(c.scaler()),
     }
     /// Output ports.
     pub struct Net {
-        /// The torque.
+        /// Torque command.
         pub torque: I(c.widths.torque) as Analog,
-        /// High if the torque is limited.
+        /// The torque is limited.
         pub saturated: Bit,
-        /// The torque is new in this tick.
+        /// High for one tick: the torque has a new value.
         pub fresh: Bit,
         /// Position of the motor in counts.
         pub position: I(c.widths.count) as Analog,
-        /// The encoder was too fast since `home`.
+        /// Both encoder channels have changed at once since `home`: the position is wrong.
         pub lost: Bit,
     }
 }

@@ -10,11 +10,12 @@
 //!                         └──────────────────┘
 //! ```
 //!
-//! 26: position error = model position − feedback. 27: P. 28: speed error = model speed + P −
-//! speed, both speeds being moves per step: of the model, its move in this step, which is its
-//! velocity before it; of the motor, the move of the feedback since the step before. 29: PI. 30:
-//! model acceleration times the inertia. 31: all three added. Departures: the torque is limited;
-//! the integral of 29 stays within the limit, and holds while it would drive the torque farther
+//! 26: position error = model position − feedback. 27: P control. 28: speed error = model speed +
+//! output of 27 − motor speed. Both speeds are distances per step: that of the model is its move in
+//! this step, which is its velocity before the step; that of the motor is the move of the feedback
+//! since the previous step. 29: PI control. 30: model acceleration times the inertia. 31: sum of
+//! all three. Departures: the torque is limited; the integral of 29 stays within the limit, and
+//! holds while it would drive the torque farther beyond.
 //! beyond.
 
 use super::model_state::ModelWidths;
@@ -79,13 +80,13 @@ impl ServoWidths {
 signals! { for ServoWidths as c;
     /// Gains of a servo control's loops.
     pub struct ServoGains {
-        /// Gain of 27: speed for a position error, in units of 2^−(G − 1).
+        /// Gain of 27: speed per position error, in units of 2^−(G − 1).
         pub position_gain: U(c.gain),
-        /// Proportional gain of 29: torque for a speed error, in units of 2^(LEFT − FINE − G + 1).
+        /// Proportional gain of 29: torque per speed error, in units of 2^(LEFT − FINE − G + 1).
         pub speed_gain: U(c.gain),
-        /// Integral gain of 29: per period, in the same units.
+        /// Integral gain of 29, per period; in the unit of `speed_gain`.
         pub integral_gain: U(c.gain),
-        /// Gain of 30: torque for an acceleration, in the same units.
+        /// Gain of 30: torque per acceleration, in the unit of `speed_gain`.
         pub inertia: U(c.gain),
         /// Largest torque, below 2^(T − 1).
         pub limit: U(c.torque),
@@ -103,24 +104,24 @@ pub struct ServoArithmetic {
 signals! { for ServoArithmetic as c;
     /// Input ports.
     pub struct In {
-        /// The model's state is new; not taken while `busy`. All words but the
-        /// feedback are constant during a step.
+        /// The state of the model is new; ignored while `busy`. All inputs but the feedback are
+        /// constant during a step.
         pub step: Bit,
-        /// Sets speed and integral to 0 and takes over the feedback; a running step is aborted.
+        /// Clears speed, integral and torque, and loads the feedback; aborts a running step.
         pub clear: Bit,
-        /// Position of the reference model.
+        /// Position of the reference model, in guard units.
         pub model_position: I(c.widths.position),
-        /// Its velocity, per period.
+        /// Velocity of the reference model, per period.
         pub model_velocity: I(c.widths.position),
-        /// Its acceleration, per period squared.
+        /// Acceleration of the reference model, per period squared.
         pub model_acceleration: I(c.widths.position),
-        /// Position of the motor in counts; taken over with `step`.
+        /// Position of the motor in counts; sampled with `step`.
         pub feedback: I(c.widths.count),
-        /// Gains of its loops.
+        /// Gains of the loops.
         pub gains: ServoGains(&c.widths) as Flat,
-        /// The scaler is done.
+        /// The scaler has a result.
         pub done: Bit,
-        /// Its result.
+        /// Result of the scaler.
         pub scaled: U(c.widths.product()),
     }
     /// Flip-flops.
@@ -129,82 +130,82 @@ signals! { for ServoArithmetic as c;
         state: U(3) as States(STATES) = 0,
         /// The value being scaled is negative.
         negative: Bit = 0,
-        /// The feedback of the last step.
+        /// Feedback of the last step.
         previous: I(c.widths.count) = 0,
-        /// Move of the feedback in that period.
+        /// Move of the feedback in the last step, in counts.
         speed: I(c.widths.count) = 0,
-        /// 28: the speed error.
+        /// 28: speed error, in guard units per step.
         speed_error: I(c.widths.product()) as Analog = 0,
-        /// Sum of the parts of 31 so far, with FINE bits below the torque's last.
+        /// Sum of the parts of 31 so far, with FINE bits below the torque's lowest bit.
         sum: I(c.widths.product()) as Analog = 0,
-        /// Integral of 29, with FINE bits below the torque's last.
+        /// Integral of 29, with FINE bits below the torque's lowest bit.
         integral: I(c.widths.product()) as Analog = 0,
-        /// Change of the integral by this period.
+        /// Change of the integral in this step.
         increment: I(c.widths.product()) = 0,
-        /// The torque.
+        /// Torque command.
         pub torque: I(c.widths.torque) as Analog = 0,
-        /// High if the torque is limited.
+        /// The torque is limited.
         pub saturated: Bit = 0,
-        /// High in the tick with new values.
+        /// High for one tick: the torque has a new value.
         pub fresh: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// A step is taken.
+        /// A step is accepted.
         take: Bit,
         /// A product is ready.
         product_there: Bit,
-        /// The feedback in guard units.
+        /// Feedback in guard units.
         actual: I(c.widths.product()),
-        /// 26: the position error.
+        /// 26: position error, in guard units.
         position_error: I(c.widths.product()),
-        /// The product with its sign.
+        /// Result of the scaler with its sign.
         product: I(c.widths.product()),
-        /// The model's acceleration.
+        /// Acceleration of the model.
         change: I(c.widths.product()),
-        /// Move of the model in this step.
+        /// Move of the model in this step, in guard units.
         model_way: I(c.widths.product()),
         /// Move of the motor in this step, in guard units.
         motor_way: I(c.widths.product()),
-        /// 28, valid when the product of 27 is ready.
+        /// 28: speed error; valid when the product of 27 is ready.
         speed_demand: I(c.widths.product()),
         /// Next value to scale.
         operand: I(c.widths.product()),
-        /// Its magnitude.
+        /// Magnitude of the next value to scale.
         size: U(c.widths.product()),
-        /// The scaler begins.
+        /// Starts the scaler.
         pub scale: Bit,
-        /// With this value,
+        /// Value for the scaler.
         pub value: U(c.widths.product()),
-        /// by this gain.
+        /// Gain for the scaler.
         pub gain: U(c.widths.gain),
         /// Largest integral.
         highest: I(c.widths.product()),
-        /// Least integral.
+        /// Lowest integral.
         lowest: I(c.widths.product()),
-        /// The integral plus the increment.
+        /// Integral plus increment.
         grown: I(c.widths.product()),
-        /// `grown` within the torque's limits.
+        /// `grown`, limited to the range of the integral.
         held: I(c.widths.product()),
-        /// 31: the whole torque with the fine bits.
+        /// 31: sum of all parts, with FINE bits below the torque's lowest bit.
         whole: I(c.widths.product()),
-        /// `whole` to the nearest, a half upwards.
+        /// `whole`, rounded to the nearest torque word, halves up.
         wanted: I(c.widths.product()),
         /// Largest torque.
         most: I(c.widths.product()),
-        /// Least torque.
+        /// Lowest torque.
         least: I(c.widths.product()),
         /// The torque is above the largest.
         above: Bit,
-        /// The torque is below the least.
+        /// The torque is below the lowest.
         below_least: Bit,
-        /// The torque within its limits.
+        /// Torque within its limits.
         limited: I(c.widths.product()),
-        /// The integral may take the increment.
+        /// The integral takes the increment.
         integrates: Bit,
-        /// The torque is limited, and the step ends.
+        /// The torque is limited and output, and the step ends.
         ends: Bit,
-        /// A step is not taken.
+        /// A step is running; another one is ignored.
         pub busy: Bit,
     }
 }

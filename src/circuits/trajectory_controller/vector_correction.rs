@@ -9,7 +9,7 @@
 //!              └───────────────────┘
 //! ```
 //!
-//! E = Pr − Ps, Pd = Pc + E: the deviation of the response from the path is added to the command.
+//! E = Pr − Ps and Pd = Pc + E: the distance from the response to the path is added to the command.
 
 use crate::prelude::*;
 
@@ -59,25 +59,25 @@ signals! { for VectorCorrection as c;
     pub struct In {
         /// All three points are valid.
         pub correct: Bit,
-        /// Pr: the reference point, or the error feedback.
+        /// Pr: reference point, or the error feedback.
         pub target: I(c.width),
-        /// Ps: the servo response.
+        /// Ps: servo response.
         pub response: I(c.width),
-        /// Pc: the position command.
+        /// Pc: position command.
         pub command: I(c.width),
     }
     /// Flip-flops.
     pub struct Reg {
-        /// E: the correction.
+        /// E: correction.
         pub correction: I(c.width) as Analog = 0,
-        /// Pd: the corrected position command.
+        /// Pd: corrected position command.
         pub corrected: I(c.width) as Analog = 0,
-        /// High in the tick with new values.
+        /// High for one tick: the corrected command has a new value.
         pub fresh: Bit = 0,
     }
     /// Nets.
     pub struct Net {
-        /// Correction to add.
+        /// Correction to add to the command.
         vector: I(c.width),
     }
 }

@@ -39,14 +39,14 @@ pub struct Widths {
     pub period: usize,
     /// K: gains of the reference model, with K − 1 fraction bits.
     pub gain: usize,
-    /// Gains of the servo controls; that of the position has all bits but one below the point.
+    /// Gains of the servo controls; the position gain has one integer bit.
     pub servo_gain: usize,
     /// Torques, signed.
     pub torque: usize,
 }
 
 impl Widths {
-    /// The circuit's own.
+    /// Widths of the standard build.
     pub const FULL: Widths = Widths {
         position: 31,
         point: 47,
@@ -70,13 +70,13 @@ impl Widths {
         self.point - self.position
     }
 
-    /// Bits below the point of the servo controls' gains but that of the position.
+    /// Fraction bits of the servo controls' gains, except the position gain.
     #[must_use]
     pub const fn torque_fraction(&self) -> usize {
         self.servo_gain - 1 + FINE - LEFT
     }
 
-    /// The most segments of a path.
+    /// Largest number of segments of a path.
     #[must_use]
     pub const fn most_segments(&self) -> usize {
         1 << self.segment
@@ -189,13 +189,14 @@ impl PointWidths {
         self.radius - self.point
     }
 
-    /// Sum of an axis: three radii, doubled.
+    /// Width of the sum of an axis: three radii, doubled.
     #[must_use]
     pub const fn sum(&self) -> usize {
         self.radius + 3
     }
 
-    /// Product of an offset and a curvature: a sum of two offsets with the bits below them.
+    /// Width of the product of an offset and a curvature: the sum of two offsets, with the extra
+    /// bits below them.
     #[must_use]
     pub const fn product(&self) -> usize {
         self.point + PRODUCT_FRACTION + 1
@@ -231,7 +232,7 @@ impl FeedbackWidths {
         (self.guard() + 2).div_ceil(2)
     }
 
-    /// Coordinate of a direction, signed.
+    /// Width of a coordinate of a direction, signed.
     pub(super) const fn direction(&self) -> usize {
         2 * self.direction_pairs()
     }
@@ -241,7 +242,7 @@ impl FeedbackWidths {
         self.gain.div_ceil(2)
     }
 
-    /// The number of a pair of either.
+    /// Width of the number of a pair of either.
     pub(super) const fn pair(&self) -> usize {
         let (direction, gain) = (self.direction_pairs(), self.gain_pairs());
         log2(if direction > gain { direction } else { gain })
@@ -261,12 +262,12 @@ impl FeedbackWidths {
         if gain > direction { gain } else { direction }
     }
 
-    /// An error, normal or tangential.
+    /// Width of an error, normal or tangential.
     pub(super) const fn error(&self) -> usize {
         self.position + 2
     }
 
-    /// Width of a sum: four times four errors, or a normal and a tangential one, and the whole
+    /// Width of a sum: four times four errors, or a normal and a tangential error, and the integer
     /// bits of a factor.
     pub(super) const fn sum(&self) -> usize {
         self.position + self.whole() + 5

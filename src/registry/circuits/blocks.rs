@@ -14,7 +14,7 @@ fn engine(widths: Widths) -> DifferenceEngine {
     }
 }
 
-/// Blocks that more than one circuit is made of.
+/// Blocks that several circuits share.
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         MulDiv, "block: sequential arithmetic",
@@ -22,7 +22,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         small: MulDiv { multiplier: 2, word: 3 }, proved: true,
     ),
     entry!(
-        Scaler, "block: a gain, of CN104204977 and others",
+        Scaler, "block: gains of CN104204977 and others",
         full: Scaler { gain: 24, value: 58 },
         small: Scaler { gain: 3, value: 4 }, proved: true,
     ),
@@ -37,7 +37,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         small: QuadratureCounter { width: 3 }, proved: true,
     ),
     entry!(
-        DifferenceColumn, "block: a difference of JPH0743606B2 [5], [10]",
+        DifferenceColumn, "block: differences of JPH0743606B2 [5], [10]",
         full: engine(Widths::default()).difference(1),
         small: engine(Widths { whole: 3, part: 3, data: 3 }).difference(1), proved: true,
     ),
@@ -47,7 +47,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         small: engine(Widths { whole: 4, part: 9, data: 9 }),
     ),
     entry!(
-        CoefficientControl, "block: which bit of a sequential product",
+        CoefficientControl, "block: bit counter of sequential products",
         full: CoefficientControl { coefficient: 42 },
         small: CoefficientControl { coefficient: 4 }, proved: true,
     ),
@@ -67,12 +67,12 @@ pub(super) const CIRCUITS: &[Entry] = &[
         small: Cordic { radius: 8, angle: 8 },
     ),
     entry!(
-        RecordMemory, "block: records that wait",
+        RecordMemory, "block: buffer of segment records",
         full: RecordMemory { record: 4, data: 42 },
         small: RecordMemory { record: 1, data: 4 },
     ),
     entry!(
-        RecordSequencer, "block: record after record",
+        RecordSequencer, "block: sequence of segment records",
         full: RecordSequencer { modulus: 41, samples: 20, data: 42, waits: false },
         small: RecordSequencer { modulus: 2, samples: 2, data: 5, waits: false }, proved: true,
     ),

@@ -39,38 +39,38 @@ signals! { for QuadratureCounter as c;
     pub struct In {
         /// Channel A of the encoder, asynchronous.
         pub a: Bit,
-        /// Channel B, asynchronous; the position goes up where A leads.
+        /// Channel B of the encoder, asynchronous. The position counts up when A leads.
         pub b: Bit,
-        /// Position to 0, `lost` off.
+        /// Clears `position` and `lost`.
         pub clear: Bit,
     }
     /// Flip-flops.
     pub struct Reg {
-        /// The last three samples of channel A: bit 0 is the flip-flop at the pin, read by nothing
-        /// but the second; bit 1 the present level; bit 2 the level a tick before it.
+        /// Last three samples of channel A. Bit 0: first synchronizer flip-flop, feeds bit 1 only.
+        /// Bit 1: present level. Bit 2: level one tick before.
         sync_a: U(3) as Hex = 0,
-        /// The last three samples of channel B, in this order too.
+        /// Last three samples of channel B, in the same order.
         sync_b: U(3) as Hex = 0,
-        /// Samples taken since power-on, up to 3: from then on the levels above are real.
+        /// Samples taken since power-on, up to 3. At 3, `sync_a` and `sync_b` are filled.
         samples: U(2),
-        /// Position in counts, quarters of an encoder period; wraps.
+        /// Position in counts (quarter periods of the encoder); wraps.
         pub position: I(c.width) as Analog = 0,
-        /// Both channels changed at once since `clear`: the position is wrong.
+        /// Both channels have changed at once since the last `clear`: the position is wrong.
         pub lost: Bit,
     }
     /// Nets.
     pub struct Net {
-        /// The levels are real.
+        /// The synchronizers are filled: `sync_a` and `sync_b` hold samples only.
         valid: Bit,
         /// Channel A has changed.
         changes_a: Bit,
         /// Channel B has changed.
         changes_b: Bit,
-        /// One channel has changed: the position moves by one.
+        /// Exactly one channel has changed: the position moves by one count.
         moves: Bit,
-        /// Upwards, if it moves.
+        /// Direction of the move; high counts up.
         up: Bit,
-        /// Both channels have changed: the direction is unknown, nothing is counted.
+        /// Both channels have changed: the direction is unknown, and nothing is counted.
         pub illegal: Bit,
     }
 }

@@ -26,7 +26,7 @@ use crate::prelude::*;
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PositionControl {
-    /// Its widths, by name.
+    /// Word widths, by name.
     pub widths: LoopWidths,
 }
 
@@ -45,7 +45,7 @@ impl PositionControl {
 signals! { for PositionControl as c;
     /// Input ports.
     pub struct In {
-        /// Loads the reference, and nothing else does.
+        /// Strobe: loads the speed reference. It changes at no other time.
         pub scan: Bit,
         /// Position command in counts.
         pub command: I(c.widths.position) as Analog,
@@ -65,19 +65,19 @@ signals! { for PositionControl as c;
     }
     /// Nets.
     pub struct Net {
-        /// 10: command − feedback in counts, in every tick; wraps.
+        /// 10: command − feedback in counts, valid in every tick; wraps.
         pub deviation: I(c.widths.position) as Analog,
-        /// Amount of the deviation.
+        /// Magnitude of the deviation, in counts.
         distance: U(c.widths.position),
-        /// 11: distance · gain and half an LSB of the D/A converter, with F fraction bits.
+        /// 11: distance · gain plus half an LSB of the D/A converter, with F fraction bits.
         product: U(c.widths.product()),
         /// The product is at the limit or beyond.
         limited: Bit,
-        /// Amount of the reference that a scan loads.
+        /// Magnitude of the reference that a scan loads.
         amount: U(c.widths.converter),
         /// 12: reference that a scan loads.
         limited_reference: I(c.widths.converter),
-        /// The amount of the deviation is at most the window, in every tick.
+        /// The magnitude of the deviation is at most the window; valid in every tick.
         pub in_position: Bit,
     }
 }

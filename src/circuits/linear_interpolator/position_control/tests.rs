@@ -148,7 +148,8 @@ proptest! {
         let feedback = if is_near { command.wrapping_sub(near) as i32 } else { far };
         let feedback = i64::from(feedback);
         let (gain, widths) = (u64::from(gain), LoopWidths::FULL);
-        let out = scanned(&mut control(widths), command, feedback, gain, window);
-        prop_assert_eq!(out, expected(widths, command, feedback, gain, window));
+        let mut simulator = control(widths);
+        let out = scanned(&mut simulator, command, feedback, gain, window);
+        assert_eq!(out, expected(widths, command, feedback, gain, window));
     }
 }
