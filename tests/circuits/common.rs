@@ -1,9 +1,11 @@
 //! Helpers of the pulse interpolator's tests.
 
+use motion_rtl::circuits::pulse_interpolator::group::In;
 use motion_rtl::circuits::pulse_interpolator::{Group, Pattern, Variant, Widths};
-use motion_rtl::hdl::zero;
-use motion_rtl::sim::{Each, Sample};
+use motion_rtl::hdl::{Value, zero};
+use motion_rtl::sim::{Each, Sample, Simulator};
 use motion_rtl::trace::LastTicks;
+use std::ops::Deref;
 
 /// Widths of half-period, unit time and address.
 pub fn widths(half_period: usize, period: usize, address: usize) -> Widths {
@@ -49,15 +51,41 @@ pub fn player(
     group
 }
 
-/// The step line of a group of one axis over `ticks` ticks.
-pub fn steps(group: &Group, ticks: u64) -> Vec<bool> {
-    let mut wave = Vec::new();
-    let look = |now: &Sample<'_, Group>| {
-        wave.push(now.w.step[0]);
-    };
-    LastTicks::simulator(group)
-        .unwrap()
-        .run(ticks, |_, _| zero(group), Each(look))
+/// One value for each tick of a run. A test that fails while it has a run leaves the waves of its
+/// last ticks.
+pub struct Run<T> {
+    shown: Vec<T>,
+    _simulator: Simulator<Group>,
+}
+
+impl<T> Deref for Run<T> {
+    type Target = [T];
+
+    fn deref(&self) -> &[T] {
+        &self.shown
+    }
+}
+
+/// Runs a group from power-on for `ticks` ticks; `show` gives the value of each.
+pub fn run<T>(
+    group: &Group,
+    ticks: u64,
+    stimulus: impl Fn(u64) -> In<Value>,
+    mut show: impl FnMut(&Sample<'_, Group>) -> T,
+) -> Run<T> {
+    let mut shown = Vec::new();
+    let look = |now: &Sample<'_, Group>| shown.push(show(now));
+    let mut simulator = LastTicks::simulator(group).unwrap();
+    simulator
+        .run(ticks, |tick, _| stimulus(tick), Each(look))
         .expect("no observer fails");
-    wave
+    Run {
+        shown,
+        _simulator: simulator,
+    }
+}
+
+/// The step line of a group of one axis over `ticks` ticks.
+pub fn steps(group: &Group, ticks: u64) -> Run<bool> {
+    run(group, ticks, |_| zero(group), |now| now.w.step[0])
 }

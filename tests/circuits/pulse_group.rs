@@ -1,12 +1,11 @@
 //! The group at cycle level: start-up, patterns, commands, unit times.
 
-use super::common::{player, rises, steps, unit_wave, widths};
+use super::common::{self, Run, player, rises, steps, unit_wave, widths};
 use motion_rtl::circuits::pulse_interpolator::Variant::Safe;
 use motion_rtl::circuits::pulse_interpolator::group::{Group, In};
 use motion_rtl::circuits::pulse_interpolator::{Pattern, Widths, pattern_memory::WritePort};
 use motion_rtl::hdl::{Declarations, Value, zero};
 use motion_rtl::netlist::Role;
-use motion_rtl::sim::{Each, Sample, Simulator};
 
 type Port = In<Value>;
 
@@ -33,24 +32,16 @@ struct Seen {
 }
 
 /// Runs the group under a stimulus and shows every tick.
-fn run(group: &Group, ticks: u64, stimulus: impl Fn(u64) -> Port) -> Vec<Seen> {
-    let mut seen = Vec::new();
-    let look = |now: &Sample<'_, Group>| {
-        seen.push(Seen {
-            unit_rst: now.w.unit_rst,
-            busy: now.w.busy,
-            ready: now.w.ready,
-            address: now.see(|s| s.p.sequencer.q.address),
-            period: now.see(|s| s.p.unit_time.q.active),
-            step: now.w.step[0],
-            dir: now.w.dir[0],
-        });
-    };
-    Simulator::new(group)
-        .unwrap()
-        .run(ticks, |tick, _| stimulus(tick), Each(look))
-        .expect("no observer fails");
-    seen
+fn run(group: &Group, ticks: u64, stimulus: impl Fn(u64) -> Port) -> Run<Seen> {
+    common::run(group, ticks, stimulus, |now| Seen {
+        unit_rst: now.w.unit_rst,
+        busy: now.w.busy,
+        ready: now.w.ready,
+        address: now.see(|s| s.p.sequencer.q.address),
+        period: now.see(|s| s.p.unit_time.q.active),
+        step: now.w.step[0],
+        dir: now.w.dir[0],
+    })
 }
 
 /// A command that starts the pattern `base..=last`.
@@ -311,14 +302,6 @@ fn a_word_written_while_it_is_read_is_read_as_it_was() {
 fn a_write_goes_to_the_axis_it_names() {
     let group = Group::new(2, widths(3, 3, 1), Safe, 4);
     for axis in 0..8u64 {
-        let mut rose = [0; 2];
-        let mut before = [false; 2];
-        let look = |now: &Sample<'_, Group>| {
-            for (line, level) in now.w.step.iter().enumerate() {
-                rose[line] += u32::from(*level && !before[line]);
-                before[line] = *level;
-            }
-        };
         let drive = |tick| In {
             port: WritePort {
                 write: tick == 0,
@@ -331,10 +314,11 @@ fn a_write_goes_to_the_axis_it_names() {
             period: 4,
             ..zero(&group)
         };
-        Simulator::new(&group)
-            .unwrap()
-            .run(20, |tick, _| drive(tick), Each(look))
-            .expect("no observer fails");
+        let shown = common::run(&group, 20, drive, |now| now.w.step.clone());
+        let rose = [0, 1].map(|line| {
+            let wave: Vec<bool> = shown.iter().map(|step| step[line]).collect();
+            rises(&wave)
+        });
         assert_eq!(rose, [0, 1].map(|line| if line == axis { 2 } else { 0 }));
     }
 }
@@ -386,17 +370,9 @@ fn eight_axes_under_one_unit_time_counter() {
         memory.half_periods.set(4090, half_period);
         memory.half_periods.set(4091, 100 - half_period);
     }
-    let mut waves = vec![Vec::new(); 8];
-    let look = |now: &Sample<'_, Group>| {
-        for (wave, step) in waves.iter_mut().zip(&now.w.step) {
-            wave.push(*step);
-        }
-    };
-    Simulator::new(&group)
-        .unwrap()
-        .run(500, |_, _| zero(&group), Each(look))
-        .expect("no observer fails");
-    for (wave, half_period) in waves.iter().zip(half_periods) {
+    let shown = common::run(&group, 500, |_| zero(&group), |now| now.w.step.clone());
+    for (axis, half_period) in half_periods.into_iter().enumerate() {
+        let wave: Vec<bool> = shown.iter().map(|step| step[axis]).collect();
         assert_eq!(wave[..100], [false; 100], "before the first unit time");
         let (first, second) = (
             unit_wave(half_period, 100),

@@ -1,11 +1,10 @@
 //! The group against a second model of it, written as a program, under random control computers.
 
-use super::common::widths;
+use super::common::{self, widths};
 use motion_rtl::circuits::pulse_interpolator::Variant::Safe;
 use motion_rtl::circuits::pulse_interpolator::group::{Group, In};
 use motion_rtl::circuits::pulse_interpolator::pattern_memory::WritePort;
 use motion_rtl::hdl::{Value, zero};
-use motion_rtl::sim::{Each, Sample, Simulator, State};
 use proptest::prelude::*;
 
 const WORDS: u64 = 4;
@@ -169,19 +168,15 @@ proptest! {
             expected.push(program.outputs(port));
             program.tick(port);
         }
-        let mut seen = Vec::new();
-        let look = |now: &Sample<'_, Group>| {
-            let lines = [0, 1].map(|axis| (now.w.step[axis], now.w.dir[axis]));
-            seen.push((lines, [now.w.unit_rst, now.w.ready, now.w.busy]));
-        };
-        let drive = |tick: u64, _: &State<'_, Group>| {
+        let drive = |tick: u64| {
             ports.get(tick as usize).cloned().unwrap_or_else(|| zero(&circuit))
         };
-        Simulator::new(&circuit).unwrap()
-            .run(ports.len() as u64, drive, Each(look))
-            .map_err(|error| TestCaseError::fail(error.to_string()))?;
-        for (tick, (expected, seen)) in expected.iter().zip(&seen).enumerate() {
-            prop_assert_eq!(expected, seen, "tick {}", tick);
+        let seen = common::run(&circuit, ports.len() as u64, drive, |now| {
+            let lines = [0, 1].map(|axis| (now.w.step[axis], now.w.dir[axis]));
+            (lines, [now.w.unit_rst, now.w.ready, now.w.busy])
+        });
+        for (tick, (expected, seen)) in expected.iter().zip(&*seen).enumerate() {
+            assert_eq!(expected, seen, "tick {tick}");
         }
     }
 }

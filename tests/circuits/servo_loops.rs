@@ -5,6 +5,7 @@ use motion_rtl::circuits::linear_interpolator::PositionLoop;
 use motion_rtl::circuits::linear_interpolator::position_loop::In;
 use motion_rtl::plant::{ServoAxis, ServoParameters};
 use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 use proptest::prelude::*;
 
 /// 200 kHz.
@@ -35,15 +36,10 @@ struct Axis {
 }
 
 impl Axis {
-    fn new(
-        circuit: &PositionLoop,
-        parameters: &ServoParameters,
-        gain: u64,
-        scan_ticks: u64,
-    ) -> Self {
+    fn new(parameters: &ServoParameters, gain: u64, scan_ticks: u64) -> Self {
         let servo = ServoAxis::new(parameters, TICK_S).expect("they are in range");
         Axis {
-            simulator: Simulator::new(circuit).unwrap(),
+            simulator: LastTicks::simulator(&PositionLoop::default()).unwrap(),
             levels: servo.channels(),
             servo,
             gain,
@@ -103,16 +99,9 @@ fn bound(parameters: &ServoParameters, scan_s: f64) -> f64 {
     0.25 / (parameters.velocity_loop_s + 1.5 * scan_s)
 }
 
-fn settles(
-    parameters: &ServoParameters,
-    scan_ticks: u64,
-    word: u64,
-    target: i64,
-    seconds: f64,
-) -> Result<(), String> {
-    let circuit = PositionLoop::default();
-    let mut axis = Axis::new(&circuit, parameters, word, scan_ticks);
-    let scans = (seconds / TICK_S / scan_ticks as f64) as u64;
+/// Moves an axis to a target, where it is to rest without an error after that time.
+fn settles(axis: &mut Axis, target: i64, seconds: f64) -> Result<(), String> {
+    let scans = (seconds / TICK_S / axis.scan_ticks as f64) as u64;
     for scan in 0..scans + 50 {
         let seen = axis.scan(target);
         let there = seen.deviation == 0 && seen.speed_ref == 0 && seen.in_position;
@@ -152,8 +141,9 @@ proptest! {
         let greatest = parameters.rated_counts_per_s().min(fastest) / kp;
         let target = (size * greatest) as i64;
         let seconds = (greatest.ln() + 4.0) / kp + 10.0 * velocity_loop_s;
-        let settled = settles(&parameters, scan_ticks, word, target, seconds);
-        prop_assert!(settled.is_ok(), "Kp {}, to {}: {:?}", kp, target, settled);
+        let mut axis = Axis::new(&parameters, word, scan_ticks);
+        let settled = settles(&mut axis, target, seconds);
+        assert!(settled.is_ok(), "Kp {kp}, to {target}: {settled:?}");
     }
 }
 
@@ -169,7 +159,8 @@ fn steps_of_a_few_counts_settle_too() {
         for word in [word, 128, 129, 200, 383] {
             for target in [-3, -2, -1, 1, 2, 3, 17] {
                 let seconds = 4.0 / kp_of(&parameters, word) + 0.1;
-                settles(&parameters, SCAN, word, target, seconds)
+                let mut axis = Axis::new(&parameters, word, SCAN);
+                settles(&mut axis, target, seconds)
                     .unwrap_or_else(|error| panic!("{word} to {target}: {error}"));
             }
         }
@@ -182,9 +173,11 @@ fn beyond_the_limit_of_stability_it_swings() {
     // With a scan of 20 ms the phase lag is a half turn at 107 rad/s, where Kp is 122.
     let (scan_ticks, kp) = (4000, 160.0);
     let (word, _) = gain(&parameters, kp);
-    assert!(settles(&parameters, scan_ticks, word, 100, 5.0).is_err());
+    let mut axis = Axis::new(&parameters, word, scan_ticks);
+    assert!(settles(&mut axis, 100, 5.0).is_err());
     let (word, _) = gain(&parameters, bound(&parameters, 0.02));
-    settles(&parameters, scan_ticks, word, 100, 5.0).expect("within the bound");
+    let mut axis = Axis::new(&parameters, word, scan_ticks);
+    settles(&mut axis, 100, 5.0).expect("within the bound");
 }
 
 /// A ramp of so many counts a second in the scan of that number.
@@ -198,8 +191,7 @@ fn a_ramp_is_followed_at_the_distance_of_speed_over_gain() {
     for (speed, kp) in [(20_000.0, 20.0), (-60_000.0, 35.0), (90_000.0, 30.0)] {
         let (word, kp) = gain(&parameters, kp);
         assert!(kp <= bound(&parameters, SCAN as f64 * TICK_S));
-        let circuit = PositionLoop::default();
-        let mut axis = Axis::new(&circuit, &parameters, word, SCAN);
+        let mut axis = Axis::new(&parameters, word, SCAN);
         let mut sum = 0;
         for scan in 0..1200 {
             let seen = axis.scan(ramp(speed, scan));
@@ -223,10 +215,9 @@ fn contour_error(angle: f64, feed: f64, kps: [f64; 2]) -> (f64, f64) {
         },
     ];
     let (sin, cos) = angle.to_radians().sin_cos();
-    let circuit = PositionLoop::default();
     let gains: [_; 2] = std::array::from_fn(|axis| gain(&parameters[axis], kps[axis]));
     let mut axes: [_; 2] =
-        std::array::from_fn(|axis| Axis::new(&circuit, &parameters[axis], gains[axis].0, SCAN));
+        std::array::from_fn(|axis| Axis::new(&parameters[axis], gains[axis].0, SCAN));
     let (settle, measure) = (800, 300);
     let mut sum = 0.0;
     for scan in 0..settle + measure {
@@ -276,9 +267,8 @@ fn the_torque_limit_limits_the_acceleration() {
     let limit = weak.max_torque_nm / weak.inertia_kg_m2 * weak.counts_per_rad();
     // In a millisecond, from rest, on the way to a far target.
     for (parameters, limited) in [(weak, true), (ServoParameters::default(), false)] {
-        let circuit = PositionLoop::default();
         let (word, _) = gain(&parameters, 30.0);
-        let mut axis = Axis::new(&circuit, &parameters, word, SCAN);
+        let mut axis = Axis::new(&parameters, word, SCAN);
         let (mut before, mut most) = (0.0, 0.0f64);
         for _ in 0..20 {
             axis.scan(1600);
@@ -297,8 +287,7 @@ fn the_converter_saturates_at_rated_speed_and_comes_back() {
     let parameters = ServoParameters::default();
     let (word, kp) = gain(&parameters, 30.0);
     for target in [20_000, -20_000] {
-        let circuit = PositionLoop::default();
-        let mut axis = Axis::new(&circuit, &parameters, word, SCAN);
+        let mut axis = Axis::new(&parameters, word, SCAN);
         let mut saturated = 0;
         for _ in 0..700 {
             let seen = axis.scan(target);
@@ -325,8 +314,7 @@ fn an_encoder_that_is_too_fast_is_told() {
             ..ServoParameters::default()
         };
         let (word, _) = gain(&parameters, 30.0);
-        let circuit = PositionLoop::default();
-        let mut axis = Axis::new(&circuit, &parameters, word, SCAN);
+        let mut axis = Axis::new(&parameters, word, SCAN);
         let countable = axis.servo.countable_counts_per_s();
         assert_eq!(parameters.rated_counts_per_s() > countable, too_fast);
         let mut lost = false;

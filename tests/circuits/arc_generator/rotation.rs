@@ -152,8 +152,8 @@ proptest! {
         let mut simulator = simulator((40, 42, 42), rounding);
         load(&mut simulator, coefficients(&matrix).chain((2..).zip(from)));
         let first = step(&mut simulator);
-        prop_assert_eq!(first, rotated(&matrix, from, 40, nearest).map(|word| wrap(word, 40)));
+        assert_eq!(first, rotated(&matrix, from, 40, nearest).map(|word| wrap(word, 40)));
         let second = step(&mut simulator);
-        prop_assert_eq!(second, rotated(&matrix, first, 40, nearest).map(|word| wrap(word, 40)));
+        assert_eq!(second, rotated(&matrix, first, 40, nearest).map(|word| wrap(word, 40)));
     }
 }

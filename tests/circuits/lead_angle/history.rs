@@ -149,8 +149,6 @@ fn both_forms_agree_at_full_width() {
         i.0.restart = tick.is_multiple_of(2503);
         i
     };
-    let end = LastTicks::simulator(&pair)
-        .unwrap()
-        .run(100_000, stimulus, lockstep);
-    end.unwrap();
+    let mut simulator = LastTicks::simulator(&pair).unwrap();
+    simulator.run(100_000, stimulus, lockstep).unwrap();
 }

@@ -9,6 +9,7 @@ use motion_rtl::circuits::lead_angle::{
 };
 use motion_rtl::hdl::{Image, Value};
 use motion_rtl::sim::{Observer, Simulator, State};
+use motion_rtl::trace::LastTicks;
 
 /// Outputs by which runs are compared.
 const OUTPUTS: [&str; 12] = [
@@ -121,10 +122,8 @@ fn the_ram_compensator_is_the_compensator_in_every_tick() {
         let lockstep = Lockstep::of(&pair, &outputs).unwrap();
         let mut bench = Bench::new(seed);
         let stimulus = |_, _: &State<'_, _>| PairIn(bench.tick(None));
-        let end = Simulator::new(&pair)
-            .unwrap()
-            .run(100_000, stimulus, lockstep);
-        end.unwrap();
+        let mut simulator = LastTicks::simulator(&pair).unwrap();
+        simulator.run(100_000, stimulus, lockstep).unwrap();
     }
 }
 
@@ -140,7 +139,7 @@ fn the_three_placements_fire_in_the_same_tick() {
         let mut lockstep = Lockstep::of(&pair, &outputs).unwrap();
         let mut bench = Bench::new(9);
         let mut fired = 0;
-        let mut simulator = Simulator::new(&pair).unwrap();
+        let mut simulator = LastTicks::simulator(&pair).unwrap();
         for _ in 0..100_000 {
             let seen = simulator
                 .step_with(&PairIn(bench.tick(None)), |now| {
@@ -175,7 +174,7 @@ fn every_form_is_the_embodiment_in_every_tick() {
             let pair = Pair { left, right };
             let mut lockstep = Lockstep::of(&pair, &outputs).unwrap();
             let mut bench = Bench::new(5);
-            let mut simulator = Simulator::new(&pair).unwrap();
+            let mut simulator = LastTicks::simulator(&pair).unwrap();
             let (mut fired, mut learned) = (0u64, 0u64);
             for tick in 0..60_000 {
                 let mut i = bench.tick(None);
@@ -229,7 +228,7 @@ fn a_form_says_what_it_has_not() {
 fn never_fires_too_early(circuit: &Compensator, wanted: impl Fn(u64) -> Option<u64>) {
     let (mut samples, mut fired, mut early) = (0u64, 0u64, 0u64);
     let mut bench = Bench::new(21);
-    let mut simulator = Simulator::new(circuit).unwrap();
+    let mut simulator = LastTicks::simulator(circuit).unwrap();
     // Time and number of samples that the pair was made with which is looked at in this tick.
     let mut pair: Option<(u64, u64)> = None;
     for tick in 0..400_000 {

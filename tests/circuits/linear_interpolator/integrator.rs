@@ -5,6 +5,7 @@
 use motion_rtl::circuits::linear_interpolator::integrator::In;
 use motion_rtl::circuits::linear_interpolator::{Integrator, Rule};
 use motion_rtl::sim::{Simulator, State};
+use motion_rtl::trace::LastTicks;
 use std::collections::HashSet;
 
 const P: usize = 5;
@@ -15,6 +16,12 @@ const fn small(rule: Rule) -> Integrator {
     Integrator { position: P, rule }
 }
 
+/// A simulator that leaves its waves if the test fails.
+fn recorded(rule: Rule) -> Simulator<Integrator> {
+    LastTicks::simulator(&small(rule)).unwrap()
+}
+
+/// A simulator to be copied.
 fn at_power_on(rule: Rule) -> Simulator<Integrator> {
     let mut simulator = Simulator::new(&small(rule)).unwrap();
     simulator.compile();
@@ -30,9 +37,9 @@ struct Cycle {
 }
 
 impl Cycle {
-    fn begin(at_power_on: &Simulator<Integrator>, master: i64, slave: i64) -> Self {
+    fn begin(simulator: Simulator<Integrator>, master: i64, slave: i64) -> Self {
         let mut cycle = Cycle {
-            simulator: at_power_on.clone(),
+            simulator,
             master,
             slave,
         };
@@ -71,6 +78,31 @@ impl Cycle {
     }
 }
 
+/// A cycle that is repeated for its waves if an assertion fails meanwhile: a copy of a simulator
+/// has none.
+struct Waves<'a> {
+    rule: Rule,
+    /// Δx and Δy.
+    distances: [i64; 2],
+    increments: &'a [i64],
+}
+
+impl Drop for Waves<'_> {
+    fn drop(&mut self) {
+        if !std::thread::panicking() {
+            return;
+        }
+        let [master, slave] = self.distances;
+        let mut cycle = Cycle::begin(recorded(self.rule), master, slave);
+        for &increment in self.increments {
+            cycle.tick(false, Some(increment));
+            for _ in 0..LATENCY {
+                cycle.tick(false, None);
+            }
+        }
+    }
+}
+
 /// Every state of a cycle, with the sum of the increments that lead there.
 fn explore(
     at_power_on: &Simulator<Integrator>,
@@ -79,10 +111,11 @@ fn explore(
     mut look: impl FnMut(i64, i64, [i64; 4]),
 ) {
     let mut seen = HashSet::new();
-    let first = Cycle::begin(at_power_on, master, slave);
+    let first = Cycle::begin(at_power_on.clone(), master, slave);
     let (_, first_remainder) = first.words();
-    let mut open = vec![(0, first)];
-    while let Some((sum, at)) = open.pop() {
+    let mut open = vec![(first, vec![])];
+    while let Some((at, path)) = open.pop() {
+        let sum: i64 = path.iter().sum();
         let (integral, remainder) = at.words();
         if !seen.insert((sum, integral, remainder)) {
             continue;
@@ -93,6 +126,12 @@ fn explore(
             if !WORDS.contains(&increment) {
                 continue;
             }
+            let increments = [&path[..], &[increment]].concat();
+            let _waves = Waves {
+                rule: at_power_on.circuit().rule,
+                distances: [master, slave],
+                increments: &increments,
+            };
             let mut cycle = at.clone();
             cycle.scan(increment);
             let (after, left) = cycle.words();
@@ -101,7 +140,7 @@ fn explore(
                 after - integral,
                 [to, after, left, first_remainder],
             );
-            open.push((to, cycle));
+            open.push((cycle, increments.clone()));
         }
     }
 }
@@ -162,7 +201,7 @@ fn the_way_back_goes_over_the_same_points_with_the_floor_and_not_with_truncation
         for master in 1..WORDS.end {
             for slave in WORDS.start + 1..WORDS.end {
                 let walk = |from: i64, way: i64| -> Vec<i64> {
-                    let mut cycle = Cycle::begin(&circuit, way * master, way * slave);
+                    let mut cycle = Cycle::begin(circuit.clone(), way * master, way * slave);
                     let mut points = vec![from];
                     for _ in 0..master {
                         cycle.scan(way);
@@ -199,10 +238,9 @@ fn bresenham(dx: i64, dy: i64) -> Vec<i64> {
 
 #[test]
 fn unit_increments_draw_bresenhams_line() {
-    let circuit = at_power_on(Rule::Centred);
     for dx in 1..WORDS.end {
         for dy in 0..=dx {
-            let mut cycle = Cycle::begin(&circuit, dx, dy);
+            let mut cycle = Cycle::begin(recorded(Rule::Centred), dx, dy);
             let ys: Vec<i64> = (0..dx)
                 .map(|_| {
                     cycle.scan(1);
@@ -217,13 +255,12 @@ fn unit_increments_draw_bresenhams_line() {
 /// The text does not mention the B left by an aborted cycle.
 #[test]
 fn a_stale_remainder_ends_in_the_wrong_place() {
-    let circuit = at_power_on(Rule::Floor);
     let (mut wrong, mut all) = (0, 0);
     for master in 1..10 {
         for slave in 0..=master {
             for broken_off in 1..master {
                 for cleared in [true, false] {
-                    let mut cycle = Cycle::begin(&circuit, master, slave);
+                    let mut cycle = Cycle::begin(recorded(Rule::Floor), master, slave);
                     cycle.scan(broken_off);
                     let (before, _) = cycle.words();
                     (cycle.master, cycle.slave) = (7, 5);
@@ -249,9 +286,8 @@ fn a_stale_remainder_ends_in_the_wrong_place() {
 
 #[test]
 fn a_start_that_comes_too_early_and_a_clear_in_mid_division_leave_nothing_behind() {
-    let circuit = at_power_on(Rule::Floor);
     for tick in 0..=LATENCY {
-        let mut cycle = Cycle::begin(&circuit, 7, 3);
+        let mut cycle = Cycle::begin(recorded(Rule::Floor), 7, 3);
         cycle.tick(false, Some(5));
         let mut valid = 0;
         for at in 1..=LATENCY {
@@ -261,7 +297,7 @@ fn a_start_that_comes_too_early_and_a_clear_in_mid_division_leave_nothing_behind
         }
         assert_eq!((valid, cycle.words()), (1, (2, 1)), "start at {tick}");
 
-        let mut cycle = Cycle::begin(&circuit, 7, 3);
+        let mut cycle = Cycle::begin(recorded(Rule::Floor), 7, 3);
         cycle.tick(false, Some(5));
         for _ in 1..tick {
             cycle.tick(false, None);
@@ -280,7 +316,7 @@ fn a_start_that_comes_too_early_and_a_clear_in_mid_division_leave_nothing_behind
 
 #[test]
 fn a_master_that_does_not_move_divides_nothing() {
-    let mut simulator = at_power_on(Rule::Floor);
+    let mut simulator = recorded(Rule::Floor);
     for tick in 0..3 * LATENCY {
         let i = In {
             clear: tick == 0,

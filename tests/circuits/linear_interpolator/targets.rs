@@ -39,7 +39,7 @@ proptest! {
                 let outputs = ([q.target_x, q.target_y], q.target_speed[0], times);
                 (now.w.ready, now.w.available, outputs)
             }).unwrap();
-            prop_assert_eq!(seen, (queue.len() < 3, !queue.is_empty(), shown));
+            assert_eq!(seen, (queue.len() < 3, !queue.is_empty(), shown));
             let full = queue.len() == 3;
             if flush {
                 queue.clear();

@@ -3,6 +3,7 @@
 use super::program::{Outputs, Ports, Program};
 use motion_rtl::circuits::linear_interpolator::{PatternGenerator, pattern_generator};
 use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 
 /// Both, fed with the same ports; they are compared in every tick.
 pub struct Bench {
@@ -22,7 +23,7 @@ impl Bench {
             time: time as usize,
         };
         Bench {
-            simulator: Simulator::new(&circuit).unwrap(),
+            simulator: LastTicks::simulator(&circuit).unwrap(),
             program: Program::new(position, time),
             prepare: circuit.prepare_latency(),
             scan_latency: circuit.scan_latency(),

@@ -6,7 +6,7 @@ use motion_rtl::circuits::trajectory_controller::point_sequencer::RADIUS;
 use motion_rtl::circuits::trajectory_controller::widths::PointWidths;
 use motion_rtl::circuits::trajectory_controller::{PathPoint, Widths};
 use motion_rtl::hdl::Value;
-use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -175,7 +175,7 @@ proptest! {
     ) {
         let widths = PointWidths { segment: A, ..Widths::FULL.point() };
         let circuit = PathPoint { widths, axes: 3, radius_word: RADIUS };
-        let mut simulator = Simulator::new(&circuit).unwrap();
+        let mut simulator = LastTicks::simulator(&circuit).unwrap();
         let last = path.len() as u64 - 1;
         let mut begins = vec![0];
         for (index, segment) in (0u64..).zip(&path) {
@@ -209,15 +209,15 @@ proptest! {
                 let i = In { start: ticks == 1, length, ..idle(last) };
                 simulator.step_with(&i, |_| ()).unwrap();
                 let done = simulator.see(|s| s.p.sequencer.q.done);
-                prop_assert_eq!(done, ticks == latency, "after {} ticks", ticks);
+                assert_eq!(done, ticks == latency, "after {ticks} ticks");
             }
             let p = simulator.registers().p;
-            prop_assert_eq!(p.search.q.segment, index as u64);
+            assert_eq!(p.search.q.segment, index as u64);
             let exact = segment.point(length - begins[index]);
             for (axis, exact) in exact.into_iter().enumerate() {
                 let off = p.axes[axis].q.point as f64 - exact;
                 let bound = segment.bound();
-                prop_assert!(off.abs() <= bound, "axis {}: {} off, {}", axis, off, bound);
+                assert!(off.abs() <= bound, "axis {axis}: {off} off, {bound}");
             }
         }
     }

@@ -7,6 +7,7 @@ use motion_rtl::circuits::trajectory_controller::servo_arithmetic::{ServoGains, 
 use motion_rtl::circuits::trajectory_controller::{Rounding, Servo, Widths};
 use motion_rtl::hdl::Value;
 use motion_rtl::sim::Simulator;
+use motion_rtl::trace::LastTicks;
 use proptest::prelude::*;
 
 /// State of the equations from step to step.
@@ -133,7 +134,7 @@ fn output(simulator: &mut Simulator<Servo>) -> (i128, bool) {
 /// Runs periods on a circuit and on the equations; nothing changes before its tick.
 fn against_equations(widths: ServoWidths, settings: &Settings, periods: &[Period]) -> Loop {
     let circuit = servo(widths);
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = LastTicks::simulator(&circuit).unwrap();
     let mut expected = Loop::default();
     let mut count = 0i128;
     // The counter's synchronizers fill.
@@ -253,7 +254,7 @@ fn preset_begins_anew_in_every_tick() {
     let circuit = servo(FULL);
     let latency = circuit.latency();
     for given_up in 1..=latency + 2 {
-        let mut simulator = Simulator::new(&circuit).unwrap();
+        let mut simulator = LastTicks::simulator(&circuit).unwrap();
         // A first step whole, so that there is something to forget.
         for tick in 0..=latency {
             let i = ports(900_000, &settings, [tick == 0, false], [false; 2]);
