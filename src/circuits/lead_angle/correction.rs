@@ -9,9 +9,9 @@
 //! ```
 //!
 //! Contains error 27, position register 30 and overrun 31, the arithmetic 28 with a sequential
-//! multiplier-divider, and the [grid] for the result: that of the ratio logic, unless N is fixed at
-//! 1. For the second order, the [refinement] divides twice. For the [exact
-//! relation](exact_relation), the division is made once, with another divisor.
+//! multiplier-divider, and the [grid] for the result. Unless N is fixed at 1, this is the grid of
+//! the ratio logic. For the second order, the [refinement] divides twice. For the [exact
+//! relation](exact_relation), there is one division, by another divisor.
 
 use super::grid::{self, Grid, GridPart};
 use super::{CorrectionArithmetic, Division, ExactRelation, Refinement, Sign, StopError};

@@ -1,4 +1,4 @@
-// address_sequencer: read address: counts on RST, loops, stops, switches patterns.
+// address_sequencer: read address: counts at RST, repeats, stops, switches patterns.
 // Made by motion-rtl from the circuit of that name.
 
 `timescale 1ns / 1ps
@@ -6,41 +6,42 @@
 module address_sequencer (
     input  wire       clk,
     input  wire       rst,            // Registers to their power-on values; memories stay.
-    input  wire       unit_rst,       // Last tick of the unit time.
-    input  wire       pending,        // A command waits.
-    input  wire [3:0] pending_base,   // Its pattern's first address.
-    input  wire [3:0] pending_last,   // Its pattern's last address.
-    input  wire       pending_cyclic, // Its pattern starts again after its last word.
-    input  wire       pending_run,    // High: starts a pattern; low: stops the running one.
-    input  wire       pending_now,    // High: the command is taken at the next RST; low: at the RST
-                                      // that ends the pattern.
-    output wire       state,          // State: a pattern runs or not. 0 IDLE, 1 RUN.
-    output wire [3:0] address,        // Address of the unit time that runs.
-    output wire       take,           // The waiting command is taken with this tick.
-    output wire [3:0] next_address,   // Address of the next unit time.
-    output wire       read,           // The pattern memory reads next_address.
+    input  wire       unit_rst,       // RST: high in the last tick of the unit time.
+    input  wire       pending,        // A command is waiting.
+    input  wire [3:0] pending_base,   // First address of the waiting command's pattern.
+    input  wire [3:0] pending_last,   // Last address of the waiting command's pattern.
+    input  wire       pending_cyclic, // The waiting command's pattern repeats after its last word.
+    input  wire       pending_run,    // High: the waiting command starts a pattern; low: it stops the
+                                      // running one.
+    input  wire       pending_now,    // High: the waiting command is taken at the next RST; low: at
+                                      // the RST that ends the running pattern.
+    output wire       state,          // State: RUN while a pattern runs. 0 IDLE, 1 RUN.
+    output wire [3:0] address,        // Address of the current unit time.
+    output wire       take,           // The waiting command is taken at the end of this tick.
+    output wire [3:0] next_address,   // Address of the next unit time; valid in the tick of RST.
+    output wire       read,           // The pattern memories read next_address.
     output wire       blank           // The next unit time has no pulses.
 );
 
     reg        state_reg = 1'b0;
     reg  [3:0] address_reg = 4'd0;
-    reg  [3:0] base = 4'd0;        // First address of the pattern that runs.
-    reg  [3:0] last = 4'd0;        // Last address of the pattern that runs.
-    reg        cyclic = 1'b0;      // The pattern that runs starts again after its last word.
+    reg  [3:0] base = 4'd0;        // First address of the running pattern.
+    reg  [3:0] last = 4'd0;        // Last address of the running pattern.
+    reg        cyclic = 1'b0;      // The running pattern repeats after its last word.
     assign state = state_reg;
     assign address = address_reg;
 
-    // The unit time that runs is the last of its pattern.
+    // The address is the last of the pattern.
     wire at_last = address == last;
-    // The unit time is the last of its pattern, or no pattern runs.
+    // The address is the last of the pattern, or no pattern runs.
     wire at_end = !state || at_last;
-    // The waiting command is for the next RST.
+    // The waiting command can be taken at an RST in this tick.
     wire due = pending && (at_end || pending_now);
-    // The waiting command starts a pattern.
+    // The waiting command can be taken, and starts a pattern.
     wire start = due && pending_run;
-    // Address that follows in the pattern that runs.
+    // Next address of the running pattern.
     wire [3:0] following = at_last && cyclic ? base : address + 4'd1;
-    // A pattern runs in the next unit time, if this is the tick of RST.
+    // A pattern runs in the next unit time; valid in the tick of RST.
     wire go_on = due ? pending_run : state && (!at_last || cyclic);
     assign next_address = go_on ? (start ? pending_base : following) : address;
     assign take = unit_rst && due;

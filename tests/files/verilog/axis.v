@@ -12,14 +12,14 @@ module pattern_memory #(
     input  wire       blank,             // Puts "no pulse" into the output registers; the direction
                                          // stays. read has priority.
     input  wire       address,           // Address of the next unit time.
-    input  wire       write,             // Writes a word of the axis that write_axis names.
-    input  wire [2:0] write_axis,        // The axis written to.
-    input  wire       write_address,     // Address written to.
-    input  wire [3:0] write_half_period, // Half-period written.
-    input  wire       write_direction,   // Direction written.
-    output wire [3:0] half_period,       // Half-period of the unit time that runs, in ticks; 0 for no
+    input  wire       write,             // Writes a word of the axis with the number write_axis.
+    input  wire [2:0] write_axis,        // Number of the axis to write.
+    input  wire       write_address,     // Address to write.
+    input  wire [3:0] write_half_period, // Half-period to write, in ticks; 0 for no pulse.
+    input  wire       write_direction,   // Direction to write; high counts down.
+    output wire [3:0] half_period,       // Half-period of the current unit time, in ticks; 0 for no
                                          // pulse.
-    output wire       direction          // Direction of the unit time that runs; high counts down.
+    output wire       direction          // Direction of the current unit time; high counts down.
 );
 
     // Half-periods, one word per unit time.
@@ -61,7 +61,7 @@ module pattern_memory #(
     assign half_period = half_period_reg;
     assign direction = direction_reg;
 
-    // A word is written to this axis.
+    // A word of this axis is written.
     wire selected = write && write_axis == AXIS;
     // The output becomes "no pulse".
     wire clear = blank && !read;
@@ -98,17 +98,17 @@ module pulse_generator (
     input  wire       clk,
     input  wire       rst,         // Registers to their power-on values; memories stay.
     input  wire [3:0] half_period, // Half-period of the pulse signal in ticks; 0 for no pulse.
-    input  wire       unit_rst,    // Last tick of the unit time.
-    output wire       pulse        // The pulse signal; the flip-flop 40 shows it a tick later, except
+    input  wire       unit_rst,    // RST: high in the last tick of the unit time.
+    output wire       pulse        // Pulse signal; the flip-flop 40 outputs it one tick later, except
                                    // in the tick after RST.
 );
 
     reg  [3:0] count = 4'd0;  // 201: ticks since the last toggle.
-    reg        toggle = 1'b0; // 202: the level between toggles.
+    reg        toggle = 1'b0; // 202: level of the pulse signal since the last toggle.
 
-    // count + 1: ticks since the last toggle, this one included.
+    // count + 1: ticks since the last toggle, including this one.
     wire [3:0] next = count + 4'd1;
-    // 202: the half-period is over with this tick. The name is the patent's; safe is >=.
+    // 202: the half-period ends with this tick. The patent's name; the safe variant compares with >=.
     wire equal = next >= half_period;
     assign pulse = (toggle ^ equal) && half_period != 4'd0;
 
@@ -160,8 +160,8 @@ endmodule
 module sync_stage (
     input  wire clk,
     input  wire rst,      // Registers to their power-on values; memories stay.
-    input  wire pulse,    // The pulse signal.
-    input  wire unit_rst, // Last tick of the unit time.
+    input  wire pulse,    // Pulse signal of the pulse generator 20.
+    input  wire unit_rst, // RST: high in the last tick of the unit time.
     output wire step      // Step pulses to the motor driver; a step is a rising edge.
 );
 
@@ -199,18 +199,18 @@ endmodule
 module axis (
     input  wire       clk,
     input  wire       rst,               // Registers to their power-on values; memories stay.
-    input  wire       unit_rst,          // Last tick of the unit time.
+    input  wire       unit_rst,          // RST: high in the last tick of the unit time.
     input  wire       read,              // Reads the word at address for the next unit time.
     input  wire       blank,             // The next unit time has no pulses.
     input  wire       address,           // Address of the next unit time.
-    input  wire       write,             // Writes a word of the axis that write_axis names.
-    input  wire [2:0] write_axis,        // The axis written to.
-    input  wire       write_address,     // Address written to.
-    input  wire [3:0] write_half_period, // Half-period written.
-    input  wire       write_direction,   // Direction written.
+    input  wire       write,             // Writes a word of the axis with the number write_axis.
+    input  wire [2:0] write_axis,        // Number of the axis to write.
+    input  wire       write_address,     // Address to write.
+    input  wire [3:0] write_half_period, // Half-period to write, in ticks; 0 for no pulse.
+    input  wire       write_direction,   // Direction to write; high counts down.
     output wire       step,              // Step pulses; a step is a rising edge.
-    output wire       dir                // Direction; high counts down. Changes only with the first
-                                         // tick of a unit time.
+    output wire       dir                // Direction; high counts down. Changes only in the first tick
+                                         // of a unit time.
 );
 
     wire [3:0] memory_half_period;

@@ -7,12 +7,12 @@ module enable_counter (
     input  wire       clk,
     input  wire       rst,    // Registers to their power-on values; memories stay.
     input  wire [3:0] period, // Ticks from one enable to the next; 0 counts as 1.
-    output wire       enable  // This is the last tick of the period.
+    output wire       enable  // High in the last tick of the period.
 );
 
     reg  [3:0] count = 4'd0; // Ticks since the period began.
 
-    // count + 1: ticks of the period that are over after this one.
+    // count + 1: ticks of the period, including this one.
     wire [3:0] next = count + 4'd1;
     assign enable = next >= period;
 
