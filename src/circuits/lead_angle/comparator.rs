@@ -84,7 +84,7 @@ signals! { for Comparator as c;
         look: Bit,
         /// Position and target are equal.
         equal: Bit,
-        /// The difference is below a quarter of the range.
+        /// The difference is within a quarter of the range, in either direction.
         near: Bit,
         /// The position reaches or passes the target from below.
         upwards: Bit,

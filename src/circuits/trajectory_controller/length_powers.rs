@@ -45,7 +45,7 @@ signals! { for LengthPowers as c;
         pub start: Bit,
         /// Length on the spline in guard units, below 2^shift; constant from `start` to `done`.
         pub offset: U(c.widths.point),
-        /// n: bits of the spline's longest length, 1 to P − 1; constant from `start` to `done`.
+        /// n: width of the spline's length in bits, 1 to P − 1; constant from `start` to `done`.
         pub shift: U(6),
     }
     /// Flip-flops.

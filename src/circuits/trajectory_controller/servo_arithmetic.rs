@@ -107,7 +107,8 @@ signals! { for ServoArithmetic as c;
         /// The state of the model is new; ignored while `busy`. All inputs but the feedback are
         /// constant during a step.
         pub step: Bit,
-        /// Clears speed, integral and torque, and loads the feedback; aborts a running step.
+        /// Clears integral and torque, and takes over the feedback as that of the last step; aborts
+        /// a running step.
         pub clear: Bit,
         /// Position of the reference model, in guard units.
         pub model_position: I(c.widths.position),
