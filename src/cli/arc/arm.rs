@@ -3,6 +3,7 @@
 use super::Job;
 use crate::cli::columns::Table;
 use crate::cli::rows::fixed;
+use motion_rtl::jobs::arc_generator::joints::JointReport;
 use motion_rtl::path::arm::JOINT_NAMES;
 use serde::Serialize;
 use std::fmt::{self, Write};
@@ -25,25 +26,17 @@ pub struct ArmRows {
 pub struct JointRow {
     /// Name of the joint.
     pub joint: &'static str,
-    /// Least and largest angle.
-    pub range_deg: [f64; 2],
-    /// Largest speed from sample to sample.
-    pub speed_deg_per_s: f64,
-    /// Largest acceleration over three samples.
-    pub acceleration_deg_per_s2: f64,
+    /// Its motion.
+    #[serde(flatten)]
+    pub report: JointReport,
 }
 
 /// The joints of a job that has an arm.
 pub fn rows(job: &Job) -> Option<ArmRows> {
     let (arm, followed) = job.arm.as_ref()?;
-    let joint = |number: usize| {
-        let report = followed.joints[number];
-        JointRow {
-            joint: JOINT_NAMES[number],
-            range_deg: report.range_deg,
-            speed_deg_per_s: report.speed_deg_per_s,
-            acceleration_deg_per_s2: report.acceleration_deg_per_s2,
-        }
+    let joint = |number: usize| JointRow {
+        joint: JOINT_NAMES[number],
+        report: followed.joints[number],
     };
     Some(ArmRows {
         counts_per_rev: arm.counts_per_rev,
@@ -57,10 +50,14 @@ impl ArmRows {
     pub fn write(&self, text: &mut String) -> fmt::Result {
         Table::of(&self.joints)
             .left("joint", 8, |row| row.joint)
-            .col("from deg", 9, |row| fixed(row.range_deg[0], 3))
-            .col("to deg", 9, |row| fixed(row.range_deg[1], 3))
-            .col("largest deg/s", 0, |row| fixed(row.speed_deg_per_s, 3))
-            .col("deg/s2", 9, |row| fixed(row.acceleration_deg_per_s2, 3))
+            .col("from deg", 9, |row| fixed(row.report.range_deg[0], 3))
+            .col("to deg", 9, |row| fixed(row.report.range_deg[1], 3))
+            .col("largest deg/s", 0, |row| {
+                fixed(row.report.speed_deg_per_s, 3)
+            })
+            .col("deg/s2", 9, |row| {
+                fixed(row.report.acceleration_deg_per_s2, 3)
+            })
             .write(text)?;
         writeln!(
             text,

@@ -2,18 +2,17 @@
 
 use super::Job;
 use super::beside::Beside;
-use super::mechanism::{Jolt, Jolting};
+use super::blended::{ArcFigures, Blended};
+use super::jolt::{Jolt, Jolting};
 use super::products::{Differing, ProductsBeside};
-use super::view::projected;
+use super::projection::projected;
 use crate::cli::report::First;
 use crate::cli::thinned::Thinned;
 use motion_rtl::input::Point;
 use motion_rtl::jobs::arc_generator::bounds::segment_error;
 use motion_rtl::jobs::arc_generator::job::Command;
 use motion_rtl::jobs::arc_generator::measure::{Measured, Measuring, SampleMeasured};
-use motion_rtl::jobs::arc_generator::prepared::{ArcReport, Shape};
-use motion_rtl::path::vector::distance;
-use std::ops::RangeInclusive;
+use motion_rtl::jobs::arc_generator::prepared::Shape;
 
 /// The figures of a run.
 #[derive(Debug)]
@@ -52,16 +51,25 @@ impl Figures {
             arc.conventional_radius_error_um = Some(error_mm * 1e3);
         }
     }
-}
 
-/// An arc of a path.
-#[derive(Debug, Clone, Copy)]
-pub struct ArcFigures {
-    /// Index of its segment.
-    pub segment: usize,
-    /// Index of its piece.
-    pub piece: usize,
-    pub report: ArcReport,
+    /// Returns the samples that are shown.
+    pub fn samples(&self) -> impl Iterator<Item = &SampleMeasured> {
+        self.shown.iter().map(|shown| &shown.measured)
+    }
+
+    /// Returns the samples that are shown by segments, each from the last of the one before on.
+    pub fn by_segment(&self) -> Vec<(usize, Vec<&SampleMeasured>)> {
+        let samples: Vec<_> = self.samples().collect();
+        let (mut all, mut last) = (Vec::new(), None);
+        for own in samples.chunk_by(|a, b| a.segment == b.segment) {
+            all.push((
+                own[0].segment,
+                last.into_iter().chain(own.iter().copied()).collect(),
+            ));
+            last = own.last().copied();
+        }
+        all
+    }
 }
 
 /// A sample as the picture shows it.
@@ -84,43 +92,6 @@ impl Shown {
         let ([x, y, z], (across, up)) = (point, projected(point));
         let [speed, acceleration] = [speed, acceleration].map(|value| value.unwrap_or(f64::NAN));
         [x, y, z, across, up, speed, acceleration, self.radius_error]
-    }
-}
-
-/// A blend into an arc with as much of the arc.
-#[derive(Debug)]
-pub struct Blended {
-    pub arc: ArcFigures,
-    samples: RangeInclusive<u64>,
-    /// Points in mm.
-    pub points: Vec<Point>,
-}
-
-impl Blended {
-    /// Returns the blend that leaves its arc farthest; `None` if there is no arc.
-    fn of(job: &Job, arcs: &[ArcFigures]) -> Option<Self> {
-        let far = |arc: &&ArcFigures| arc.report.blend_distance;
-        let arc = *arcs.iter().max_by(|a, b| far(a).total_cmp(&far(b)))?;
-        let segments = &job.prepared.segments;
-        let (blend, rotation) = (
-            segments.get(arc.segment.checked_sub(1)?)?,
-            segments[arc.segment],
-        );
-        let last = (blend.end() + blend.samples).min(rotation.end());
-        Some(Blended {
-            arc,
-            samples: blend.first_sample..=last,
-            points: Vec::new(),
-        })
-    }
-
-    /// Way to each of its points in mm.
-    pub fn ways(&self) -> Vec<f64> {
-        let ways = self.points.windows(2).scan(0.0, |way, pair| {
-            *way += distance(pair[0], pair[1]);
-            Some(*way)
-        });
-        std::iter::once(0.0).chain(ways).collect()
     }
 }
 

@@ -2,12 +2,17 @@
 
 mod arm;
 mod beside;
+mod blended;
+mod costs;
 mod figures;
 mod job;
+mod jolt;
 mod mechanism;
 mod operations;
 mod picture;
 mod products;
+mod projection;
+mod style;
 mod summary;
 mod text;
 mod verdict;

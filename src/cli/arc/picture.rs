@@ -2,26 +2,15 @@
 //! rotation begins and ends, the radius error within its bound, a blend's distance from its arc.
 
 use super::Job;
-use super::figures::{ArcFigures, Blended, Figures};
+use super::blended::{ArcFigures, Blended};
+use super::figures::Figures;
+use super::style::{ARC, ARCS_MARKED, BLEND, EXPECTED, GAP, LINE, Points};
 use super::view::path;
 use motion_rtl::jobs::arc_generator::bounds::segment_error;
-use motion_rtl::jobs::arc_generator::measure::SampleMeasured;
 use motion_rtl::jobs::arc_generator::prepared::Segment;
 use motion_rtl::picture::{Curve, Panel, Picture};
 
-pub const LINE: &str = "#0072b2";
-pub const ARC: &str = "#d55e00";
-pub const BLEND: &str = "#009e73";
-/// Closed forms, bounds and what is wanted.
-pub const EXPECTED: &str = "#8c8c8c";
-pub const GAP: (f64, f64) = (f64::NAN, f64::NAN);
-/// More arcs than these have no marks: their words would lie upon each other.
-pub const ARCS_MARKED: usize = 2;
-
 const TIME: &str = "time in s";
-
-/// A curve with gaps.
-pub type Points = Vec<(f64, f64)>;
 
 /// The picture as SVG.
 pub fn draw(job: &Job, figures: &Figures) -> String {
@@ -66,25 +55,6 @@ fn arcs<'a>(
     figures.arcs.iter().map(|arc| (&segments[arc.segment], arc))
 }
 
-/// The samples that are shown.
-fn samples(figures: &Figures) -> impl Iterator<Item = &SampleMeasured> {
-    figures.shown.iter().map(|shown| &shown.measured)
-}
-
-/// The samples that are shown by segments, each from the last of the one before on.
-pub fn by_segment(figures: &Figures) -> Vec<(usize, Vec<&SampleMeasured>)> {
-    let samples: Vec<_> = samples(figures).collect();
-    let (mut all, mut last) = (Vec::new(), None);
-    for own in samples.chunk_by(|a, b| a.segment == b.segment) {
-        all.push((
-            own[0].segment,
-            last.into_iter().chain(own.iter().copied()).collect(),
-        ));
-        last = own.last().copied();
-    }
-    all
-}
-
 fn speed(job: &Job, figures: &Figures) -> Panel {
     let pieces = &job.prepared.pieces;
     let between = job.prepared.segments.iter().filter(|segment| {
@@ -95,7 +65,7 @@ fn speed(job: &Job, figures: &Figures) -> Panel {
         job,
         between.map(|segment| (segment, pieces[segment.piece].wanted)),
     );
-    let speeds = samples(figures).filter_map(|at| {
+    let speeds = figures.samples().filter_map(|at| {
         let middle = at.sample as f64 - 0.5;
         Some((seconds(job, middle), at.speed?))
     });
@@ -116,7 +86,7 @@ fn speed(job: &Job, figures: &Figures) -> Panel {
 }
 
 fn acceleration(job: &Job, figures: &Figures) -> Panel {
-    let curve = samples(figures).filter_map(|at| {
+    let curve = figures.samples().filter_map(|at| {
         let before = at.sample as f64 - 1.0;
         Some((seconds(job, before), at.acceleration?))
     });
@@ -149,7 +119,8 @@ fn radius_error(job: &Job, figures: &Figures) -> Panel {
     // The whole time, though there are not arcs all the time.
     let last = job.prepared.samples() as f64 - 1.0;
     let mut errors = vec![(0.0, f64::NAN), (seconds(job, last), f64::NAN)];
-    let arcs_shown = by_segment(figures)
+    let arcs_shown = figures
+        .by_segment()
         .into_iter()
         .filter_map(|(segment, samples)| {
             let place = figures

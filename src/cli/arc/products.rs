@@ -1,7 +1,6 @@
 //! Blends by products beside those by differences.
 
 use super::Job;
-use super::figures::Figures;
 use motion_rtl::circuits::arc_generator::{Blend, Widths};
 use motion_rtl::input::COORDINATES;
 use motion_rtl::jobs::arc_generator::reference::commands;
@@ -64,10 +63,10 @@ impl<'j> Differing<'j> {
 }
 
 /// Compares blends by products with those by differences; `None` for a run by differences.
-pub fn products(job: &Job, figures: &Figures) -> Option<Products> {
+pub fn products(job: &Job, differences: Option<ProductsBeside>) -> Option<Products> {
     (job.settings.blend == Blend::Products).then(|| Products {
         difference_samples_most: Blend::Differences.most_samples(&Widths::FULL),
-        differences: figures.differing,
+        differences,
     })
 }
 

@@ -2,7 +2,7 @@
 
 use super::Job;
 use super::arm::{self, ArmRows};
-use super::beside;
+use super::costs;
 use super::figures::Figures;
 use super::mechanism;
 use super::operations;
@@ -25,7 +25,10 @@ pub struct Summary {
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Settings of the run, by the keys of `keys arc_generator --json-schema`.
-    #[cfg_attr(feature = "schema", schemars(with = "crate::cli::schema::Settings"))]
+    #[cfg_attr(
+        feature = "schema",
+        schemars(with = "crate::cli::schema::Settings<Settings>")
+    )]
     pub settings: Settings,
     /// Ts in ticks.
     pub sample_ticks: u32,
@@ -54,7 +57,7 @@ pub struct Summary {
     /// Operations per sample.
     pub operations: Vec<operations::MethodOperations>,
     /// The circuit and, in a comparison, that of the conventional method.
-    pub circuits: Vec<beside::CircuitCost>,
+    pub circuits: Vec<costs::CircuitCost>,
     /// Changes of speed, and what they make of the mechanism, beside those of the conventional
     /// method where that is compared.
     pub speed_changes: Vec<mechanism::SpeedChanges>,
@@ -96,9 +99,9 @@ impl Summary {
             }),
             record_bits: bits(job.records.len() as u64, WORDS, widths.data),
             point_bits: bits(played.samples, 3, widths.position),
-            products: products::products(job, figures),
+            products: products::products(job, figures.differing),
             operations: operations::rows(job),
-            circuits: beside::rows(job, played, figures, &measured)?,
+            circuits: costs::rows(job, played, figures, &measured)?,
             measured,
             speed_changes: mechanism::rows(job, figures),
             arm: arm::rows(job),

@@ -2,7 +2,8 @@
 
 use super::Job;
 use super::figures::Figures;
-use super::picture::{ARC, ARCS_MARKED, BLEND, EXPECTED, GAP, LINE, Points, by_segment};
+use super::projection::projected;
+use super::style::{ARC, ARCS_MARKED, BLEND, EXPECTED, GAP, LINE, Points};
 use motion_rtl::input::Point;
 use motion_rtl::jobs::arc_generator::prepared::Kind;
 use motion_rtl::path::vector::distance;
@@ -22,12 +23,6 @@ pub fn path(job: &Job, figures: &Figures) -> Panel {
 fn plan(job: &Job, figures: &Figures) -> Panel {
     let panel = Panel::new("path", "x in mm", "y in mm").equal_scales();
     curves(panel, job, figures, |[x, y, _]| (x, y))
-}
-
-/// x to the lower right, y to the upper right, z up, all at one scale.
-pub fn projected([x, y, z]: Point) -> (f64, f64) {
-    let (sin, cos) = (0.5, 0.75f64.sqrt());
-    ((x + y) * cos, z + (y - x) * sin)
 }
 
 fn isometric(job: &Job, figures: &Figures) -> Panel {
@@ -115,7 +110,7 @@ fn curves(
         step.is_some_and(|step| step.rapid)
     };
     let mut parts = [const { Points::new() }; 4];
-    for (segment, samples) in by_segment(figures) {
+    for (segment, samples) in figures.by_segment() {
         let segment = &job.prepared.segments[segment];
         let part = match (rapid(segment.piece), segment.kind()) {
             (true, _) => 0,

@@ -6,6 +6,7 @@ use crate::input::{COORDINATES, Point};
 use crate::path::arm::{Arm, JOINTS, Pose};
 use crate::path::vector::distance;
 use crate::sim::Beside;
+use serde::Serialize;
 
 signals! { for Joints as _c;
     /// Commanded joints of an arm.
@@ -41,7 +42,8 @@ impl JointSignals<Value> {
 }
 
 /// Motion of a joint along a path.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct JointReport {
     /// Least and greatest angle in degrees.
     pub range_deg: [f64; 2],

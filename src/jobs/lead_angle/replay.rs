@@ -12,9 +12,11 @@ use crate::plant::waves::{Body, BodySignals};
 use crate::plant::{Encoder, Operation};
 use crate::settings::SettingError;
 use crate::sim::{Observer, Sample, Simulator, Watcher};
+use serde::Serialize;
 
 /// Control signal caused by the log.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Signal {
     /// Index of the step whose target caused it.
     pub step: usize,
@@ -22,32 +24,42 @@ pub struct Signal {
     pub target: i64,
     /// Tick of the signal.
     pub tick: u64,
+    /// Time of the signal.
+    pub seconds: f64,
     /// Lead time in milliseconds.
     pub lead_ms: f64,
     /// Position at the signal, in the log's counts.
     pub position: i64,
-    /// Position at which the operation took effect, in the log's counts.
-    pub effect_position: Option<f64>,
     /// Position one lead time after the sample that caused the signal, in the log's counts; `None`
     /// if the log has ended by then.
     pub position_after: Option<f64>,
+    /// Position at which the operation took effect, minus the target; `None` if it did not.
+    pub effect_error_counts: Option<f64>,
+    /// `position_after` minus the target: the error of the prediction.
+    pub error_counts: Option<f64>,
 }
 
 /// Number of parts of a log whose greatest errors are recorded separately.
 pub const PARTS: usize = 400;
 
 /// Errors of the predictions in all CKs, in counts.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Predictions {
     /// Number of predictions that the log can verify.
+    #[serde(rename = "predictions")]
     pub count: u64,
     /// Root mean square error.
+    #[serde(rename = "error_rms_counts")]
     pub rms: f64,
     /// Greatest error.
+    #[serde(rename = "error_max_counts")]
     pub largest: f64,
     /// Root mean square error without a lead.
+    #[serde(rename = "without_lead_rms_counts")]
     pub rms_without: f64,
     /// Greatest error without a lead.
+    #[serde(rename = "without_lead_max_counts")]
     pub largest_without: f64,
 }
 
@@ -202,7 +214,7 @@ pub fn replay(
     let mut operation = Operation::new(settings.operation_delay(false));
     let (mut before, mut effect) = (0.0, false);
     let (mut simulator, see) =
-        Simulator::watching_beside(circuit, &Body, observer.needs_all(), See::of)?;
+        Simulator::watching_beside(circuit, &Body, observer.needs(), See::of)?;
     for tick in 0..=ticks {
         let seconds = tick as f64 * tick_s;
         let position = at(seconds);
@@ -249,17 +261,22 @@ pub fn replay(
             if let Some(signal) = replayed.signals.last_mut()
                 && takes_effect
             {
-                signal.effect_position = Some(position + origin as f64);
+                let position = position + origin as f64;
+                signal.effect_error_counts = Some(position - signal.target as f64);
             }
             if fire {
+                let target = now.get(see.target) + origin;
+                let position_after = known.map(|position| position + origin as f64);
                 replayed.signals.push(Signal {
                     step: now.get(see.step) as usize,
-                    target: now.get(see.target) + origin,
+                    target,
                     tick,
+                    seconds: tick as f64 / settings.clock_hz as f64,
                     lead_ms,
-                    effect_position: None,
                     position: now.get(see.position) + origin,
-                    position_after: known.map(|position| position + origin as f64),
+                    position_after,
+                    effect_error_counts: None,
+                    error_counts: position_after.map(|at| at - target as f64),
                 });
             }
             replayed.ticks = tick + 1;

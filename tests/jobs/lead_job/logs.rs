@@ -123,7 +123,7 @@ fn operations_on_a_log_are_learned() {
     let errors: Vec<f64> = replayed
         .signals
         .iter()
-        .filter_map(|signal| Some(signal.effect_position? - signal.target as f64))
+        .filter_map(|signal| signal.effect_error_counts)
         .collect();
     assert_eq!(errors.len(), 9, "{:?}", replayed.signals);
     assert!((errors[0] - 200.0).abs() <= 6.0, "{errors:?}");

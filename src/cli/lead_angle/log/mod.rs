@@ -15,7 +15,7 @@ use motion_rtl::circuits::lead_angle::Compensator;
 use motion_rtl::hdl::Circuit;
 use motion_rtl::input::position_log::{PositionLog, UnitFrom};
 use motion_rtl::jobs::lead_angle::job::positioner;
-use motion_rtl::jobs::lead_angle::replay::{Replayed, Signal, replay, settings_for};
+use motion_rtl::jobs::lead_angle::replay::{Predictions, Replayed, Signal, replay, settings_for};
 use motion_rtl::jobs::lead_angle::settings::Settings;
 use motion_rtl::plant::waves::Body;
 use motion_rtl::sim::{Elaborated, Observer, RunError};
@@ -44,42 +44,11 @@ pub struct Summary {
     samples: usize,
     /// CK in ticks.
     ck_ticks: u32,
-    /// Predictions with a lead that the log can judge.
-    predictions: u64,
-    /// Root mean square of their errors.
-    error_rms_counts: f64,
-    /// Largest of their errors.
-    error_max_counts: f64,
-    /// Root mean square of the errors without a lead.
-    without_lead_rms_counts: f64,
-    /// Largest of the errors without a lead.
-    without_lead_max_counts: f64,
+    /// Errors of the predictions.
+    #[serde(flatten)]
+    predictions: Predictions,
     /// Every signal.
-    signals: Vec<Row>,
-}
-
-/// One signal.
-#[derive(Debug, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct Row {
-    /// Index of the step, from 0.
-    step: usize,
-    /// Target of the step, in counts.
-    target: i64,
-    /// Tick of the signal.
-    tick: u64,
-    /// Time of the signal.
-    seconds: f64,
-    /// Lead time.
-    lead_ms: f64,
-    /// Position at the signal.
-    position: i64,
-    /// Position a lead time later; `null` where the log is over by then.
-    position_after: Option<f64>,
-    /// Position at which the operation took effect, less the target; `null` if there is none.
-    effect_error_counts: Option<f64>,
-    /// `position_after` less the target: the error of the prediction.
-    error_counts: Option<f64>,
+    signals: Vec<Signal>,
 }
 
 /// Ticks that a log takes.
@@ -144,18 +113,6 @@ pub fn system<'a>(job: &'a Job, log: &'a PositionLog) -> System<'a> {
 }
 
 fn summary(log: &PositionLog, settings: &Settings, replayed: &Replayed) -> Summary {
-    let row = |signal: &Signal| Row {
-        step: signal.step,
-        target: signal.target,
-        tick: signal.tick,
-        seconds: signal.tick as f64 / settings.clock_hz as f64,
-        lead_ms: signal.lead_ms,
-        position: signal.position,
-        position_after: signal.position_after,
-        effect_error_counts: signal.effect_position.map(|at| at - signal.target as f64),
-        error_counts: signal.position_after.map(|at| at - signal.target as f64),
-    };
-    let predictions = replayed.predictions;
     let lost = "the encoder was too fast for the detector".to_owned();
     Summary {
         outcome: Outcome {
@@ -173,11 +130,7 @@ fn summary(log: &PositionLog, settings: &Settings, replayed: &Replayed) -> Summa
         counts_named: log.counts.named,
         samples: log.samples.len(),
         ck_ticks: settings.ck_ticks,
-        predictions: predictions.count,
-        error_rms_counts: predictions.rms,
-        error_max_counts: predictions.largest,
-        without_lead_rms_counts: predictions.rms_without,
-        without_lead_max_counts: predictions.largest_without,
-        signals: replayed.signals.iter().map(row).collect(),
+        predictions: replayed.predictions,
+        signals: replayed.signals.clone(),
     }
 }

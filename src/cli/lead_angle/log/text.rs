@@ -39,25 +39,18 @@ impl Report for Summary {
 
 impl Summary {
     fn predictions(&self, text: &mut String) -> std::fmt::Result {
-        if self.predictions == 0 {
+        let of = &self.predictions;
+        if of.count == 0 {
             return writeln!(text, "no prediction with a lead\n");
         }
-        let with = (
-            "with the lead",
-            self.error_max_counts,
-            self.error_rms_counts,
-        );
-        let without = (
-            "without",
-            self.without_lead_max_counts,
-            self.without_lead_rms_counts,
-        );
+        let with = ("with the lead", of.largest, of.rms);
+        let without = ("without", of.largest_without, of.rms_without);
         Table::of([with, without])
             .left("prediction error in counts", 0, |(name, ..)| *name)
             .col("largest", 8, |(_, largest, _)| format!("{largest:.1}"))
             .col("rms", 8, |(.., rms)| format!("{rms:.1}"))
             .write(text)?;
-        writeln!(text, "in {} CKs\n", self.predictions)
+        writeln!(text, "in {} CKs\n", of.count)
     }
 
     fn signals(&self, text: &mut String, all: bool) -> std::fmt::Result {
