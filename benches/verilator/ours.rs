@@ -2,7 +2,7 @@
 
 use super::theirs::ROTATION;
 use motion_rtl::hdl::Circuit;
-use motion_rtl::sim::{Observer, RecordedInputs, RunError, Sample, Simulator};
+use motion_rtl::sim::{Needs, Observer, RecordedInputs, RunError, Sample, Simulator};
 use motion_rtl::trace::{Clock, Fst, Options, Vcd, VcdBehind};
 use std::fs::File;
 use std::ops::ControlFlow;
@@ -57,8 +57,8 @@ impl<'o> Checksum<'o> {
 }
 
 impl<C: Circuit> Observer<C> for Checksum<'_> {
-    fn needs_all(&self) -> bool {
-        false
+    fn needs(&self) -> Needs {
+        Needs::NONE
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {

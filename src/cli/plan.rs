@@ -6,7 +6,7 @@ use clap::Args;
 use motion_rtl::check::Stimulus;
 use motion_rtl::engine::{Engine, Inputs, Watch, report};
 use motion_rtl::hdl::Circuit;
-use motion_rtl::sim::{Described, Elaborated, Observer, RunError, Sample};
+use motion_rtl::sim::{Described, Elaborated, Needs, Observer, RunError, Sample};
 use std::ops::ControlFlow;
 
 /// Arguments of `plan`.
@@ -80,8 +80,8 @@ fn text(model: &Elaborated, engine: &Engine, ticks: u64) -> String {
 pub struct Noted(pub Inputs);
 
 impl<C: Circuit> Observer<C> for Noted {
-    fn needs_all(&self) -> bool {
-        false
+    fn needs(&self) -> Needs {
+        Needs::NONE
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {

@@ -4,7 +4,7 @@
 use super::voice;
 use indicatif::{ProgressBar, ProgressStyle};
 use motion_rtl::hdl::Circuit;
-use motion_rtl::sim::{Observer, RunError, Sample};
+use motion_rtl::sim::{Needs, Observer, RunError, Sample};
 use std::io::{IsTerminal, Write, stderr};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -193,8 +193,8 @@ impl<C: Circuit> Observer<C> for Part {
         tick.max(self.due)
     }
 
-    fn needs_all(&self) -> bool {
-        false
+    fn needs(&self) -> Needs {
+        Needs::NONE
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {

@@ -50,10 +50,11 @@ impl<'a> Setup<'a> {
             no_vcd,
             verilog,
             plan,
-            ref series,
+            series_every,
             ..
         } = *self.arguments;
-        no_vcd && !verilog && !plan && series.is_none()
+        // A row at a strobe is in a tick with a change.
+        no_vcd && !verilog && !plan && series_every.is_none()
     }
 
     /// Returns the layout of the requested series, of which `layout` has the rows unless the

@@ -1,6 +1,6 @@
 //! Signals shown in the waves beside a circuit.
 
-use super::{Observer, RunError, Sample};
+use super::{Needs, Observer, RunError, Sample};
 use crate::hdl::{Circuit, Record, View};
 use crate::netlist::{Field, Role};
 use std::ops::ControlFlow;
@@ -35,8 +35,16 @@ impl<C: Circuit, O: Observer<C>> Observer<C> for Without<O> {
         self.0.next_look(tick)
     }
 
-    fn needs_all(&self) -> bool {
-        self.0.needs_all()
+    fn looks(&self, tick: u64) -> bool {
+        self.0.looks(tick)
+    }
+
+    fn needs(&self) -> Needs {
+        match self.0.needs() {
+            // The leaves of a model without signals beside it have other numbers.
+            Needs::Leaves(leaves) if !leaves.is_empty() => Needs::All,
+            needs => needs,
+        }
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {

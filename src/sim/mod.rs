@@ -20,7 +20,7 @@ pub use elaborated::{Described, Elaborated};
 pub(crate) use model::Tap;
 pub use model::{Handle, Model, ModelError, PortDirection, SignalInfo, SignalRef, Snapshot};
 pub(crate) use observe::at_fault;
-pub use observe::{Each, Observer, RunError, StopWhen};
+pub use observe::{Each, Needs, Observer, RunError, StopWhen};
 pub use recorded::{InputChange, InputRecorder, Playback, RecordedInputs};
 pub(crate) use sample::View as LeafView;
 pub use sample::{Lazy, Sample, State};

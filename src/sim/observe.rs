@@ -54,6 +54,41 @@ impl RunError {
     }
 }
 
+/// Signals that an observer reads beyond those that are watched anyway.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Needs {
+    /// All signals.
+    All,
+    /// Leaves of the circuit and of the signals beside it, which are watched too.
+    Leaves(Vec<usize>),
+}
+
+impl Needs {
+    /// No signal.
+    pub const NONE: Self = Needs::Leaves(Vec::new());
+
+    /// Returns what both need.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Needs::Leaves(leaves), Needs::Leaves(others)) => {
+                Needs::Leaves([leaves, others].concat())
+            }
+            _ => Needs::All,
+        }
+    }
+}
+
+/// All signals or none.
+impl From<bool> for Needs {
+    fn from(all: bool) -> Self {
+        match all {
+            true => Needs::All,
+            false => Needs::NONE,
+        }
+    }
+}
+
 /// Observes the ticks of a run: writes waves, records, checks, stops.
 ///
 /// `()` observes nothing and costs nothing; a tuple passes each tick to its parts in turn.
@@ -70,15 +105,15 @@ pub trait Observer<C: Circuit> {
         tick
     }
 
-    /// True if the observer needs this tick.
+    /// True if the observer takes this tick, where it is looked at anyway. An observer of changes
+    /// takes every such tick, and needs few.
     fn looks(&self, tick: u64) -> bool {
         self.next_look(tick) == tick
     }
 
-    /// True if the observer reads signals that nobody chose to
-    /// [watch](super::Simulator::watching).
-    fn needs_all(&self) -> bool {
-        true
+    /// Returns the signals that are to be [watched](super::Simulator::watching) for the observer.
+    fn needs(&self) -> Needs {
+        Needs::All
     }
 
     /// Receives one tick; `Break` ends the run after this tick's edge.
@@ -93,8 +128,8 @@ impl<C: Circuit> Observer<C> for () {
         u64::MAX
     }
 
-    fn needs_all(&self) -> bool {
-        false
+    fn needs(&self) -> Needs {
+        Needs::NONE
     }
 
     fn sample(&mut self, _: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
@@ -107,8 +142,12 @@ impl<C: Circuit, O: Observer<C> + ?Sized> Observer<C> for &mut O {
         (**self).next_look(tick)
     }
 
-    fn needs_all(&self) -> bool {
-        (**self).needs_all()
+    fn looks(&self, tick: u64) -> bool {
+        (**self).looks(tick)
+    }
+
+    fn needs(&self) -> Needs {
+        (**self).needs()
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
@@ -122,8 +161,12 @@ impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
             .map_or(u64::MAX, |observer| observer.next_look(tick))
     }
 
-    fn needs_all(&self) -> bool {
-        self.as_ref().is_some_and(Observer::needs_all)
+    fn looks(&self, tick: u64) -> bool {
+        self.as_ref().is_some_and(|observer| observer.looks(tick))
+    }
+
+    fn needs(&self) -> Needs {
+        self.as_ref().map_or(Needs::NONE, Observer::needs)
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
@@ -141,8 +184,12 @@ macro_rules! together {
                 u64::MAX$(.min(self.$place.next_look(tick)))+
             }
 
-            fn needs_all(&self) -> bool {
-                $(self.$place.needs_all())||+
+            fn looks(&self, tick: u64) -> bool {
+                $(self.$place.looks(tick))||+
+            }
+
+            fn needs(&self) -> Needs {
+                Needs::NONE$(.and(self.$place.needs()))+
             }
 
             fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {

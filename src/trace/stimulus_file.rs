@@ -1,7 +1,7 @@
 use crate::engine::{Engine, InputError};
 use crate::hdl::Circuit;
 use crate::netlist::Role;
-use crate::sim::{Described, Observer, RunError, Sample};
+use crate::sim::{Described, Needs, Observer, RunError, Sample};
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 
@@ -84,8 +84,8 @@ impl<W: Write> StimulusFile<W> {
 }
 
 impl<C: Circuit, W: Write> Observer<C> for StimulusFile<W> {
-    fn needs_all(&self) -> bool {
-        false
+    fn needs(&self) -> Needs {
+        Needs::NONE
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {

@@ -234,10 +234,10 @@ impl Bench<'_> {
         each: &mut dyn FnMut(Command),
         look: impl FnOnce(&Watcher<'_, C>) -> See,
     ) -> Result<Played, RunError> {
-        let all = observer.needs_all();
+        let needs = observer.needs();
         let (mut simulator, see) = match hand {
-            None => Simulator::watching(circuit, all, look)?,
-            Some(_) => Simulator::watching_beside(circuit, &Joints, all, look)?,
+            None => Simulator::watching(circuit, needs, look)?,
+            Some(_) => Simulator::watching_beside(circuit, &Joints, needs, look)?,
         };
         // Joints that no tick has shown yet.
         let mut joints = hand.as_ref().map(|hand| hand.joints);

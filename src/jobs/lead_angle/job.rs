@@ -14,7 +14,7 @@ use crate::sim::{Observer, Sample, Simulator, Watcher};
 /// Widths of the jobs' compensator.
 pub(super) const WIDTHS: Widths = Widths::FULL;
 
-/// Time after passing its target at which a body is stopped by hand, in seconds.
+/// Time after passing its target at which the control computer stops a body, in seconds.
 const MISSED_S: f64 = 0.1;
 /// Time after which an incomplete positioning is given up, in seconds.
 const PATIENCE_S: f64 = 600.0;
@@ -76,7 +76,7 @@ pub struct Positioning {
     pub timed_out: bool,
     /// True speed at completion, in counts per second.
     pub end_speed_counts_per_s: f64,
-    /// True if the target was missed, and the body stopped by hand.
+    /// True if the target was missed, and the control computer stopped the body.
     pub missed: bool,
     /// Learned time Δt2 in CKs, if any.
     pub learned: Option<u64>,
@@ -149,7 +149,7 @@ impl See {
     }
 }
 
-/// Observer that stops missed bodies by hand and records the results.
+/// Observer that stops bodies that missed their target, and records the results.
 struct Bench<'a> {
     settings: &'a Settings,
     completed: u32,
@@ -293,7 +293,7 @@ pub fn play(
     let mut loaded = false;
     let mut stands = false;
     let (mut simulator, see) =
-        Simulator::watching_beside(circuit, &Body, observer.needs_all(), See::of)?;
+        Simulator::watching_beside(circuit, &Body, observer.needs(), See::of)?;
     loop {
         if settings.load_change_after == Some(bench.completed) && !loaded {
             body.set_load(settings.load)?;

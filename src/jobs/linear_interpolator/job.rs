@@ -271,7 +271,7 @@ pub fn play_each<const N: usize>(
         quiet: false,
     };
     let (mut simulator, see) =
-        Simulator::watching_beside(circuit, &waves::Axes, observer.needs_all(), See::of)?;
+        Simulator::watching_beside(circuit, &waves::Axes, observer.needs(), See::of)?;
     let mut motors = Ahead::new(servos);
     loop {
         let references = simulator.state(|q| see.reference.map(|axis| q.get(axis)));

@@ -276,7 +276,7 @@ pub fn play_each(
     each: &mut dyn FnMut(Event),
 ) -> Result<Played, JobError> {
     let (mut simulator, (drives, mut host, see)) =
-        Simulator::watching_beside(circuit, &Plants, observer.needs_all(), |watch| {
+        Simulator::watching_beside(circuit, &Plants, observer.needs(), |watch| {
             let host = Host::new(circuit, program, settings, watch);
             (Drives::of(watch), host, See::of(watch))
         })?;

@@ -239,10 +239,10 @@ pub fn play(
     mut motors: Option<Motors>,
     observer: &mut dyn Observer<Conventional>,
 ) -> Result<Beside, RunError> {
-    let (all, beside) = (observer.needs_all(), StepMotors { axes: circuit.axes });
+    let (needs, beside) = (observer.needs(), StepMotors { axes: circuit.axes });
     let (mut simulator, see) = match motors {
-        None => Simulator::watching(circuit, all, See::of),
-        Some(_) => Simulator::watching_beside(circuit, &beside, all, See::of),
+        None => Simulator::watching(circuit, needs, See::of),
+        Some(_) => Simulator::watching_beside(circuit, &beside, needs, See::of),
     }?;
     let mut bench = Bench {
         orders,

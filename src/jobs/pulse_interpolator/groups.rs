@@ -5,7 +5,7 @@ use super::job::{Drivers, Played};
 use crate::circuits::pulse_interpolator::Groups;
 use crate::circuits::pulse_interpolator::groups::In;
 use crate::hdl::{At, zero};
-use crate::sim::{Observer, RunError, Sample, Simulator, State, Watcher};
+use crate::sim::{Needs, Observer, RunError, Sample, Simulator, State, Watcher};
 use std::ops::ControlFlow;
 
 /// Patterns and commands of a group.
@@ -71,8 +71,8 @@ struct Bench<'o> {
 }
 
 impl Observer<Groups> for Bench<'_> {
-    fn needs_all(&self) -> bool {
-        self.observer.needs_all()
+    fn needs(&self) -> Needs {
+        self.observer.needs()
     }
 
     fn sample(&mut self, now: &Sample<'_, Groups>) -> Result<ControlFlow<()>, RunError> {
@@ -99,9 +99,9 @@ pub fn play(
     members: &[Member; 2],
     observer: &mut dyn Observer<Groups>,
 ) -> Result<[Played; 2], RunError> {
-    let all = observer.needs_all();
+    let needs = observer.needs();
     let see = |watch: &Watcher<'_, Groups>| [0, 1].map(|group| See::of(watch, group));
-    let (mut simulator, see) = Simulator::watching(circuit, all, see)?;
+    let (mut simulator, see) = Simulator::watching(circuit, needs, see)?;
     let mut bench = Bench {
         see: &see,
         drivers: members

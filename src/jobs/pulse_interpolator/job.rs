@@ -11,7 +11,7 @@ use crate::circuits::pulse_interpolator::{Group, Variant, Widths};
 use crate::hdl::{At, Value, zero};
 use crate::jobs::JobError;
 use crate::settings::{SettingError, within};
-use crate::sim::{Observer, RunError, Sample, Simulator, State, Watcher};
+use crate::sim::{Needs, Observer, RunError, Sample, Simulator, State, Watcher};
 use std::ops::ControlFlow;
 
 /// Result at the drivers of a group that played a table.
@@ -89,8 +89,8 @@ struct Bench<'o> {
 }
 
 impl Observer<Group> for Bench<'_> {
-    fn needs_all(&self) -> bool {
-        self.observer.needs_all()
+    fn needs(&self) -> Needs {
+        self.observer.needs()
     }
 
     fn sample(&mut self, now: &Sample<'_, Group>) -> Result<ControlFlow<()>, RunError> {
@@ -350,10 +350,10 @@ fn played(
     run: impl FnOnce(&mut Simulator<Group>, &mut Bench<'_>) -> Result<Vec<MotorReport>, RunError>,
 ) -> Result<Played, JobError> {
     fits(group, table)?;
-    let all = observer.needs_all();
+    let needs = observer.needs();
     let (mut simulator, see) = match beside {
-        None => Simulator::watching(group, all, See::of),
-        Some(motors) => Simulator::watching_beside(group, &motors, all, See::of),
+        None => Simulator::watching(group, needs, See::of),
+        Some(motors) => Simulator::watching_beside(group, &motors, needs, See::of),
     }?;
     let mut bench = Bench {
         drivers: Drivers::new(table),

@@ -297,8 +297,8 @@ pub fn play_each(
         axes,
         ..Played::default()
     };
-    let (all, beside) = (observer.needs_all(), Machine { axes });
-    let (mut simulator, see) = Simulator::watching_beside(circuit, &beside, all, See::of)?;
+    let (needs, beside) = (observer.needs(), Machine { axes });
+    let (mut simulator, see) = Simulator::watching_beside(circuit, &beside, needs, See::of)?;
     let (mut compared, mut last) = (None, None);
     let (mut rests, mut calm, patience) = (0, 0, patience(program));
     let unit = (Widths::FULL.guard() as f64).exp2();

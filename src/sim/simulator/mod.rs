@@ -3,7 +3,7 @@
 mod run;
 
 use super::sample::{Known, all_registers, read};
-use super::{Beside, Elaborated, Model, RunError, Sample, State};
+use super::{Beside, Elaborated, Model, Needs, RunError, Sample, State};
 use crate::engine::{Engine, EngineError, Watch};
 use crate::hdl::{At, Circuit, Number, Place, Registers, Shapes, Signals, Value, Walk, pack};
 use std::cell::RefCell;
@@ -122,8 +122,8 @@ impl<C: Circuit> Simulator<C> {
         Ok(simulator)
     }
 
-    /// Creates the circuit in the power-on state; watches only the signals that `choose` picks, or
-    /// all signals if `all` is true. Other signals can still be read, at the cost of computing all
+    /// Creates the circuit in the power-on state; watches only the signals that `choose` picks and
+    /// those of `needs`, such as an observer's; `true` stands for all. Other signals can still be read, at the cost of computing all
     /// nets.
     ///
     /// Computes only nets that are watched or that registers need.
@@ -132,11 +132,11 @@ impl<C: Circuit> Simulator<C> {
     /// Returns all mistakes of the circuit.
     pub fn watching<T>(
         circuit: &C,
-        all: bool,
+        needs: impl Into<Needs>,
         choose: impl FnOnce(&Watcher<'_, C>) -> T,
     ) -> Result<(Self, T), EngineError> {
         let model = Elaborated::new(circuit)?;
-        Ok(Self::of_model(circuit, &model, 0, all, choose))
+        Ok(Self::of_model(circuit, &model, 0, needs.into(), choose))
     }
 
     /// Creates the circuit as [`watching`](Self::watching) does, with signals beside it in the
@@ -147,19 +147,19 @@ impl<C: Circuit> Simulator<C> {
     pub fn watching_beside<B: Beside, T>(
         circuit: &C,
         beside: &B,
-        all: bool,
+        needs: impl Into<Needs>,
         choose: impl FnOnce(&Watcher<'_, C>) -> T,
     ) -> Result<(Self, T), EngineError> {
         let model = Elaborated::with_beside(circuit, beside)?;
         let ports = pack::widths::<B, B::Signals<Shapes>>(beside).len();
-        Ok(Self::of_model(circuit, &model, ports, all, choose))
+        Ok(Self::of_model(circuit, &model, ports, needs.into(), choose))
     }
 
     fn of_model<T>(
         circuit: &C,
         model: &Elaborated,
         beside: usize,
-        all: bool,
+        needs: Needs,
         choose: impl FnOnce(&Watcher<'_, C>) -> T,
     ) -> (Self, T) {
         let known = Known::of(circuit, model, beside);
@@ -170,10 +170,13 @@ impl<C: Circuit> Simulator<C> {
             watched: RefCell::default(),
         };
         let chosen = choose(&watcher);
-        let watched = watcher.watched.into_inner();
-        let watch = match all {
-            true => Watch::All,
-            false => Watch::Leaves(&watched),
+        let mut watched = watcher.watched.into_inner();
+        let watch = match needs {
+            Needs::All => Watch::All,
+            Needs::Leaves(leaves) => {
+                watched.extend(leaves);
+                Watch::Leaves(&watched)
+            }
         };
         let simulator = Simulator {
             model: Model::watching(model, watch, &watched),

@@ -8,7 +8,7 @@ pub use sources::{Position, SeriesPlan};
 use super::record::{NEAR, RecordError};
 use crate::hdl::{Circuit, Declaration};
 use crate::nearest::nearest_paths;
-use crate::sim::{Described, LeafView as View, Observer, RunError, Sample};
+use crate::sim::{Described, LeafView as View, Needs, Observer, RunError, Sample};
 use npy::Header;
 use sources::{Plan, Source};
 use std::fmt::Write as _;
@@ -81,8 +81,10 @@ pub struct SeriesFile<'a, W: Write> {
     due: u64,
     plans: Vec<Plan<'a>>,
     axes: Vec<[Source; 2]>,
-    /// True if every tick counts.
-    counts: bool,
+    /// Tick that was looked at last; until the next, watched signals are as they were in it.
+    last: Option<u64>,
+    /// True if the strobe was high in it.
+    was_high: bool,
     rows: u64,
     text: String,
 }
@@ -110,7 +112,7 @@ impl<'a, W: Write + Seek> SeriesFile<'a, W> {
             Rows::Every(period) => (None, period),
         };
         let plans = layout.plans.into_iter();
-        let plans = plans.map(|plan| Plan::new(plan, &signals, strobe));
+        let plans = plans.map(|plan| Plan::new(plan, &signals));
         let plans = plans.collect::<io::Result<Vec<_>>>()?;
         let columns: Vec<_> = columns(&layout.axes).collect();
         let axes = layout.axes.into_iter();
@@ -119,21 +121,19 @@ impl<'a, W: Write + Seek> SeriesFile<'a, W> {
             Ok([commanded, Source::new(axis.actual, &signals)?])
         });
         let axes = axes.collect::<io::Result<Vec<_>>>()?;
-        // The strobes of a plan that are also those of the rows are counted with these.
-        let counts = plans.iter().any(|plan| !plan.counts_rows)
-            || axes.iter().flatten().any(Source::needs_every_tick);
         let mut series = SeriesFile {
             out: BufWriter::new(out),
             header: None,
             clock_hz: clock_hz as f64,
-            due: match plans.iter().any(|plan| plan.counts_rows) {
-                true => 0,
-                false => ticks.start,
+            due: match strobe {
+                Some(_) => 0,
+                None => ticks.start,
             },
             ticks,
             strobe,
             period: period.max(1),
-            counts,
+            last: None,
+            was_high: false,
             plans,
             axes,
             rows: 0,
@@ -172,15 +172,16 @@ fn columns(axes: &[SeriesAxis]) -> impl Iterator<Item = String> {
 
 impl<W: Write> SeriesFile<'_, W> {
     fn tick(&mut self, tick: u64, view: View<'_>) -> io::Result<()> {
-        if self.counts {
-            for source in self.axes.iter_mut().flatten() {
-                source.count(view);
-            }
+        for source in self.axes.iter_mut().flatten() {
+            source.count(view);
         }
+        let skipped = self.last.map_or(0, |last| tick - last - 1);
         for plan in &mut self.plans {
-            plan.count(view);
+            plan.count(skipped, view);
         }
-        let is_due = tick >= self.due && self.strobe.is_none_or(|leaf| view.leaf(leaf) & 1 == 1);
+        self.last = Some(tick);
+        self.was_high = self.strobe.is_some_and(|leaf| view.leaf(leaf) & 1 == 1);
+        let is_due = tick >= self.due && (self.strobe.is_none() || self.was_high);
         if is_due {
             self.due = tick.saturating_add(self.period);
         }
@@ -226,10 +227,28 @@ impl<W: Write> SeriesFile<'_, W> {
 impl<C: Circuit, W: Write> Observer<C> for SeriesFile<'_, W> {
     fn next_look(&self, tick: u64) -> u64 {
         match tick < self.ticks.end {
-            true if self.counts => tick,
-            true => tick.max(self.due),
             false => u64::MAX,
+            true if self.last.is_none() => tick,
+            // A row comes with the next change of the strobe, at which runs stop.
+            true if self.strobe.is_some() && !self.was_high => u64::MAX,
+            true => tick.max(self.due),
         }
+    }
+
+    fn looks(&self, tick: u64) -> bool {
+        tick < self.ticks.end
+    }
+
+    fn needs(&self) -> Needs {
+        let sources = self.axes.iter().flatten().flat_map(Source::watched);
+        let clocks = self.plans.iter().map(Plan::clock);
+        Needs::Leaves(
+            self.strobe
+                .into_iter()
+                .chain(clocks)
+                .chain(sources)
+                .collect(),
+        )
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {

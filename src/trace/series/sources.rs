@@ -61,30 +61,34 @@ impl fmt::Debug for SeriesPlan<'_> {
 pub(super) struct Plan<'a> {
     plan: SeriesPlan<'a>,
     clock: usize,
-    /// True if its clock is the strobe of the rows.
-    pub(super) counts_rows: bool,
     count: u64,
+    /// True if its clock was high in the tick looked at last.
+    was_high: bool,
     positions: Vec<f64>,
 }
 
 impl<'a> Plan<'a> {
-    pub(super) fn new(
-        plan: SeriesPlan<'a>,
-        signals: &Signals<'_>,
-        strobe: Option<usize>,
-    ) -> io::Result<Self> {
+    pub(super) fn new(plan: SeriesPlan<'a>, signals: &Signals<'_>) -> io::Result<Self> {
         let clock = signals.find(&plan.clock)?;
         Ok(Plan {
             plan,
             clock,
-            counts_rows: strobe == Some(clock),
             count: 0,
+            was_high: false,
             positions: Vec::new(),
         })
     }
 
-    pub(super) fn count(&mut self, view: View<'_>) {
-        self.count += view.leaf(self.clock) & 1;
+    /// Returns the leaf of its clock.
+    pub(super) fn clock(&self) -> usize {
+        self.clock
+    }
+
+    /// Counts a tick, and those before it in which the clock was as in the last one.
+    pub(super) fn count(&mut self, skipped: u64, view: View<'_>) {
+        self.count += skipped * u64::from(self.was_high);
+        self.was_high = view.leaf(self.clock) & 1 == 1;
+        self.count += u64::from(self.was_high);
     }
 
     pub(super) fn evaluate(&mut self) {
@@ -144,8 +148,13 @@ impl Source {
         })
     }
 
-    pub(super) fn needs_every_tick(&self) -> bool {
-        matches!(self, Source::Steps { .. })
+    /// Returns the leaves whose changes it counts.
+    pub(super) fn watched(&self) -> impl Iterator<Item = usize> {
+        let leaves = match *self {
+            Source::Steps { step, dir, .. } => vec![step, dir],
+            _ => Vec::new(),
+        };
+        leaves.into_iter()
     }
 
     /// Counts the steps of a tick.
