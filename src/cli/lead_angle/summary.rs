@@ -19,7 +19,10 @@ pub struct Summary {
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Settings of the run, by the keys of `keys lead_angle --json-schema`.
-    #[cfg_attr(feature = "schema", schemars(with = "crate::cli::schema::Settings"))]
+    #[cfg_attr(
+        feature = "schema",
+        schemars(with = "crate::cli::schema::Settings<Settings>")
+    )]
     pub settings: Settings,
     /// All systems with their errors.
     pub systems: Vec<SystemSummary>,
@@ -47,7 +50,7 @@ pub struct SystemSummary {
     pub error_rms_counts: f64,
     /// Largest amount by which the detector was off where a positioning was complete, in counts.
     pub position_error_max_counts: f64,
-    /// Positionings that missed their target and were stopped by hand.
+    /// Positionings that missed their target and were stopped by the control computer.
     pub missed: usize,
     /// Positionings whose time was over before the body stood still: their errors are of where it
     /// was then, still turning.
@@ -378,12 +381,12 @@ fn warnings(summary: &Summary) -> Vec<String> {
     for system in summary.systems.iter().filter(|system| system.own) {
         if system.missed > 0 {
             all.push(format!(
-                "{} of {} positionings missed their target and were {} by hand",
+                "{} of {} positionings missed their target, and the control computer {}",
                 system.missed,
                 summary.positionings.len(),
                 match summary.settings.action {
-                    Action::Stop => "stopped",
-                    Action::Operate => "operated",
+                    Action::Stop => "stopped the body",
+                    Action::Operate => "started the operation",
                 }
             ));
         }

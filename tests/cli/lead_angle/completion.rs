@@ -1,4 +1,4 @@
-//! When positionings are over: by standstill, by a fixed time, or by hand.
+//! When positionings are over: by standstill, by a fixed time, or by the control computer.
 
 use super::*;
 
@@ -111,8 +111,9 @@ fn what_is_missed_is_stopped_by_hand_and_said() {
     let own = &summary["systems"][system(&summary, "learning")];
     let missed = whole(own, "/missed");
     assert!(missed > 0, "{own}");
-    let warning =
-        format!("{missed} of 8 positionings missed their target and were stopped by hand");
+    let warning = format!(
+        "{missed} of 8 positionings missed their target, and the control computer stopped the body"
+    );
     assert_eq!(summary["warnings"][0], warning);
     assert_eq!(summary["complaints"], json!([]));
 }
