@@ -10,6 +10,7 @@ use std::fmt;
 
 /// Changed keys of a circuit.
 #[derive(Debug, Clone, Default, PartialEq, Args, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Changes {
     /// Gives a key of the circuit a value, `variant=literal` for instance; `list NAME` shows the keys.

@@ -1,6 +1,6 @@
 //! `compare`: two waveforms held against each other, tick by tick.
 
-use super::{Failure, print, print_json, threads};
+use super::{Failure, json, print, threads};
 use clap::Args;
 use motion_rtl::compare::{Map, Settings, compare as hold, template};
 use std::path::PathBuf;
@@ -117,7 +117,7 @@ pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
     }
     let report = hold(&arguments.golden, &arguments.other, &settings)?;
     match arguments.json {
-        true => print_json(&report)?,
+        true => json::print(&report)?,
         false => print(&report.text(arguments.all))?,
     }
     if report.differs() {

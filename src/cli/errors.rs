@@ -1,14 +1,12 @@
 //! Errors as JSON on standard output, where `--json` is given.
 
-use super::{Failure, plain, voice};
+use super::voice::{self, Level};
+use super::{Failure, json, plain};
 use motion_rtl::input::Fault;
 use motion_rtl::sim::RunError;
 use serde::Serialize;
 use std::io::{Write as _, stderr, stdout};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
-
-/// Version of what is printed as JSON; it grows when a key goes or changes its meaning.
-pub const VERSION: u32 = 1;
 
 /// True once a result was printed as JSON: it has what is wrong in it.
 static PRINTED: AtomicBool = AtomicBool::new(false);
@@ -18,26 +16,62 @@ pub fn is_printed() {
     PRINTED.store(true, Relaxed);
 }
 
+/// An error as JSON.
 #[derive(Debug, Serialize)]
-struct Output<'a> {
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Output<'a> {
+    /// Version of the keys.
     version: u32,
+    /// The error.
     error: Error<'a>,
 }
 
+/// A failure of a command.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct Error<'a> {
-    kind: &'static str,
+    /// Kind of the failure.
+    kind: Kind,
+    /// The message on standard error, without `error:`.
     message: String,
     /// Every fault of a file or of an argument; empty for other kinds.
     faults: Vec<Found<'a>>,
 }
 
+/// Kind of a failure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    /// A command line that cannot be parsed.
+    Usage,
+    /// An argument with a wrong value.
+    Argument,
+    /// A faulty input file.
+    Input,
+    /// A file that cannot be written.
+    File,
+    /// A run that ended early.
+    Run,
+    /// A check that failed.
+    Check,
+    /// A check whose arguments leave it undecided.
+    Undecided,
+}
+
+/// A fault with its place.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct Found<'a> {
+    /// File with the fault; `null` for an argument.
     file: Option<&'a str>,
+    /// Line from 1; `null` if the fault is of the whole file or of an argument.
     line: Option<usize>,
+    /// Word, key or argument at fault.
     field: &'a str,
+    /// The problem.
     problem: &'a str,
+    /// Allowed values.
     allowed: &'a str,
 }
 
@@ -56,7 +90,7 @@ impl<'a> Found<'a> {
 impl<'a> Error<'a> {
     fn of(failure: &'a Failure) -> Self {
         let (kind, faults) = match failure {
-            Failure::Input(fault) => ("input", fault.all().map(Found::of).collect()),
+            Failure::Input(fault) => (Kind::Input, fault.all().map(Found::of).collect()),
             Failure::Argument {
                 field,
                 problem,
@@ -69,7 +103,7 @@ impl<'a> Error<'a> {
                     problem,
                     allowed,
                 };
-                ("argument", vec![found])
+                (Kind::Argument, vec![found])
             }
             Failure::Pairs(wrong) => {
                 let found = wrong.iter().map(|wrong| Found {
@@ -79,12 +113,14 @@ impl<'a> Error<'a> {
                     problem: &wrong.problem,
                     allowed: &wrong.allowed,
                 });
-                ("argument", found.collect())
+                (Kind::Argument, found.collect())
             }
-            Failure::File(_) => ("file", Vec::new()),
-            Failure::Run(RunError::Violation { .. }) | Failure::Check(_) => ("check", Vec::new()),
-            Failure::Run(_) => ("run", Vec::new()),
-            Failure::Undecided(_) => ("undecided", Vec::new()),
+            Failure::File(_) => (Kind::File, Vec::new()),
+            Failure::Run(RunError::Violation { .. }) | Failure::Check(_) => {
+                (Kind::Check, Vec::new())
+            }
+            Failure::Run(_) => (Kind::Run, Vec::new()),
+            Failure::Undecided(_) => (Kind::Undecided, Vec::new()),
         };
         Error {
             kind,
@@ -101,16 +137,16 @@ pub fn as_json(failure: &Failure) {
 
 /// Reports a command line that cannot be parsed.
 pub fn usage(error: &clap::Error) {
-    // If standard error is closed, only the exit code remains.
-    let _ = match std::env::args().any(|word| word.contains(char::is_control)) {
-        true => write!(stderr(), "{}", plain(&error.to_string())),
-        false => error.print(),
-    };
     let text = error.to_string();
     let message = text.strip_prefix("error: ").unwrap_or(&text);
+    // If standard error is closed, only the exit code remains.
+    let _ = match std::env::args().any(|word| word.contains(char::is_control)) {
+        true => write!(stderr(), "{}{}", voice::head(Level::Error), plain(message)),
+        false => error.print(),
+    };
     let message = message.split("\n\n").next().unwrap_or(message);
     print(Error {
-        kind: "usage",
+        kind: Kind::Usage,
         message: message.to_owned(),
         faults: Vec::new(),
     });
@@ -121,7 +157,7 @@ fn print(error: Error<'_>) {
         return;
     }
     let output = Output {
-        version: VERSION,
+        version: json::VERSION,
         error,
     };
     // If standard output is closed, only the exit code remains.

@@ -6,7 +6,7 @@ use super::job::Job;
 use super::shipped::{SHIPPED, Shipped};
 use super::source::Source;
 use super::waves_of::System;
-use super::{Failure, errors, print, print_json};
+use super::{Failure, json, print};
 use clap::Args;
 use motion_rtl::hdl::Declaration;
 use motion_rtl::netlist::Role;
@@ -30,7 +30,6 @@ pub struct Arguments {
 
 #[derive(Debug, Serialize)]
 struct Listing {
-    version: u32,
     circuits: Vec<Circuit>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     scenarios: Vec<Scenario>,
@@ -91,7 +90,6 @@ pub fn list(arguments: &Arguments) -> Result<(), Failure> {
             return Err(no_circuit(&arguments.changes, "list"));
         }
         None => Listing {
-            version: errors::VERSION,
             circuits: CATALOGUE
                 .iter()
                 .map(|entry| circuit(entry, &*entry.full()))
@@ -106,14 +104,13 @@ pub fn list(arguments: &Arguments) -> Result<(), Failure> {
             let mut circuit = circuit(entry, &*made);
             circuit.connections = Connections::of(connections);
             Listing {
-                version: errors::VERSION,
                 circuits: vec![circuit],
                 scenarios: Vec::new(),
             }
         }
     };
     match arguments.json {
-        true => print_json(&listing),
+        true => json::print(&listing),
         false => print(&text(&listing)),
     }
 }

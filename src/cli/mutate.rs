@@ -2,7 +2,7 @@
 
 use super::chosen::{self, Changes, entries};
 use super::notes::NOTES;
-use super::{Failure, print, print_json, threads};
+use super::{Failure, json, print, threads};
 use clap::Args;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use motion_rtl::input::{Fault, or_more_files, read_string};
@@ -26,11 +26,11 @@ pub struct Arguments {
     circuits: Vec<String>,
     #[command(flatten)]
     changes: Changes,
-    /// The notes whose timing charts are run: a folder of Markdown, or one file; without it those
-    /// of the circuits that ship.
+    /// Notes whose timing charts are run: a file in Markdown or a folder of them; by default those of
+    /// the circuits that ship.
     #[arg(long, value_name = "PATH")]
     charts: Option<PathBuf>,
-    /// Ticks of each random run that shows whether a fault reaches a port out.
+    /// Ticks of each random run that shows whether a fault reaches an output port.
     #[arg(long, value_name = "TICKS", allow_negative_numbers = true, default_value_t = 2_000, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
     ticks: u64,
     /// Count of random runs.
@@ -115,7 +115,7 @@ pub fn mutate(arguments: &Arguments) -> Result<(), Failure> {
     });
     let report = Report::of(rows.collect::<Result<_, _>>()?);
     match arguments.json {
-        true => print_json(&report)?,
+        true => json::print(&report)?,
         false => print(&report.text(arguments.unseen))?,
     }
     match arguments.least {

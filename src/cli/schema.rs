@@ -1,20 +1,70 @@
-//! `schema`: a JSON schema of the summaries that `run --json` prints.
+//! `schema`: a JSON schema of the summaries of `run`, the report of `check`, and errors.
 
-use super::{Failure, arc, lead_angle, linear, machine, print, pulse, trajectory, waves_of};
+use super::{
+    Failure, arc, check, errors, json as output, keys, lead_angle, linear, machine, print, pulse,
+    trajectory, waves_of,
+};
+use motion_rtl::settings;
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
-use schemars::{JsonSchema, Schema};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
+use std::borrow::Cow;
+use std::marker::PhantomData;
 
-/// Settings of a run, whose own schema is that of the scenario.
-pub type Settings = Map<String, Value>;
+/// Settings in a summary: every key of the scenario's settings with its value, or `null` if it is
+/// not set.
+pub struct Settings<T>(PhantomData<T>);
+
+impl<T: settings::Value> JsonSchema for Settings<T> {
+    fn schema_name() -> Cow<'static, str> {
+        "Settings".into()
+    }
+
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let mut schema = keys::schema::value(T::SHAPE);
+        complete(&mut schema);
+        Schema::try_from(schema).unwrap_or_default()
+    }
+}
+
+/// Turns the schema of tables that are read into that of tables that are written: none of their
+/// keys is left out, and a key that has neither a value nor a default is `null`.
+fn complete(schema: &mut Value) {
+    if let Some(items) = schema.get_mut("items") {
+        complete(items);
+    }
+    let required = schema.get("required").and_then(Value::as_array);
+    let required = required.cloned().unwrap_or_default();
+    let Some(properties) = schema.get_mut("properties").and_then(Value::as_object_mut) else {
+        return;
+    };
+    for (key, property) in properties.iter_mut() {
+        complete(property);
+        let Some(table) = property.as_object_mut() else {
+            continue;
+        };
+        let is_set = table.remove("default").is_some() || required.contains(&json!(key));
+        if !is_set {
+            let description = table.remove("description");
+            *property = json!({ "anyOf": [property, { "type": "null" }] });
+            property["description"] = json!(description);
+        }
+    }
+    let keys: Vec<_> = properties.keys().cloned().collect();
+    schema["required"] = json!(keys);
+}
 
 /// Prints the schema.
 pub fn schema() -> Result<(), Failure> {
     print(&format!("{:#}\n", of_all()))
 }
 
-/// Returns the schema of every summary; each kind is one of its definitions.
+/// Returns the schema of all of them; each kind is one of its definitions.
 fn of_all() -> Value {
     let kinds = [
         of::<pulse::Summary>("pulse_interpolator", Some("pulse_interpolator")),
@@ -27,19 +77,21 @@ fn of_all() -> Value {
         of::<trajectory::Summary<'_>>("trajectory_controller", Some("trajectory_controller")),
         of::<machine::Summary>("machine", Some("machine")),
         of::<waves_of::Summary>("waves_of", None),
+        of::<check::Report>("check", None),
+        of::<errors::Output<'_>>("error", None),
     ];
     let references = kinds
         .iter()
         .map(|(kind, _)| json!({ "$ref": format!("#/$defs/{kind}") }));
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "summary of a run",
+        "title": "summary of a run, report of a check, or error",
         "anyOf": references.collect::<Vec<_>>(),
         "$defs": kinds.into_iter().collect::<Map<_, _>>(),
     })
 }
 
-/// Returns the name and the schema of a kind of summary; of one circuit or of any.
+/// Returns the name and the schema of a kind; a summary is of one circuit or of any.
 fn of<T: JsonSchema>(kind: &str, circuit: Option<&str>) -> (String, Value) {
     let settings = SchemaSettings::draft2020_12()
         .for_serialize()
@@ -56,6 +108,14 @@ fn of<T: JsonSchema>(kind: &str, circuit: Option<&str>) -> (String, Value) {
     schema["$defs"] = schema["$defs"][kind]["$defs"].take();
     if let Some(name) = circuit {
         schema["properties"]["circuit"]["const"] = json!(name);
+    }
+    schema["properties"]["version"] = json!({
+        "description": "Version of the keys.",
+        "const": output::VERSION,
+    });
+    if let Some(required) = schema["required"].as_array_mut() {
+        required.retain(|key| key != "version");
+        required.push(json!("version"));
     }
     schema["title"] = json!(kind.replace('_', " "));
     (kind.to_owned(), schema)

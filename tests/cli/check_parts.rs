@@ -56,7 +56,14 @@ fn the_table_is_printed_as_json() {
     let report = Bench::new().json(&WORK);
     assert_eq!(
         keys(&report),
-        ["asked", "rows", "shard", "too_wide", "version"]
+        [
+            "asked",
+            "program_version",
+            "rows",
+            "shard",
+            "too_wide",
+            "version"
+        ]
     );
     assert_eq!(report["shard"], json!({"part": 1, "of": 1}));
     let rows = list(&report, "rows");
@@ -297,16 +304,21 @@ fn parts_that_do_not_belong_together_are_refused() {
     };
     let version = env!("CARGO_PKG_VERSION");
     spoilt(
-        &format!("\"version\": \"{version}\""),
-        "\"version\": \"0.0.1\"",
-        &format!("spoilt.json: version: is 0.0.1; allowed: {version}"),
+        &format!("\"program_version\": \"{version}\""),
+        "\"program_version\": \"0.0.1\"",
+        &format!("spoilt.json: program_version: is 0.0.1; allowed: {version}"),
+    );
+    spoilt(
+        "\"version\": 1",
+        "\"version\": 2",
+        "spoilt.json: version: is 2; allowed: 1",
     );
     let allowed = "allowed: what `check --shard --json` printed";
     spoilt(
         "\"of\": 2",
         "\"of\": \"two\"",
         &format!(
-            "spoilt.json:20: shard.of: invalid type: string \"two\", expected u32 at line 20 column \
+            "spoilt.json:21: shard.of: invalid type: string \"two\", expected u32 at line 21 column \
              15; {allowed}"
         ),
     );

@@ -30,35 +30,6 @@ fn judge(schema: &Value, summary: &Value) -> Vec<String> {
     found.unwrap_or_else(|| panic!("no summary is of {circuit}"))
 }
 
-/// Returns what of the settings in a summary the schema of the scenarios does not allow.
-fn judge_settings(bench: &Bench, summary: &Value) -> Vec<String> {
-    let Some(settings) = summary["settings"].as_object() else {
-        return Vec::new();
-    };
-    let circuit = summary["circuit"].as_str().unwrap();
-    let mut schema: Value =
-        serde_json::from_str(&bench.succeed(&["keys", circuit, "--json-schema"])).unwrap();
-    // The circuit and the input stand beside the settings; `null` is not set.
-    schema["required"] = json!([]);
-    let set = settings.iter().filter(|(_, value)| !value.is_null());
-    let set: Value = set
-        .map(|(key, value)| (key.clone(), without_nulls(value)))
-        .collect();
-    violations(&schema, &schema, &set, "settings")
-}
-
-fn without_nulls(value: &Value) -> Value {
-    match value {
-        Value::Object(table) => {
-            let set = table.iter().filter(|(_, value)| !value.is_null());
-            set.map(|(key, value)| (key.clone(), without_nulls(value)))
-                .collect()
-        }
-        Value::Array(list) => list.iter().map(without_nulls).collect(),
-        _ => value.clone(),
-    }
-}
-
 /// Runs scenarios that ship, whose summaries must be those of the schema.
 fn run(long: bool) {
     let (bench, schema) = (Bench::new(), schema());
@@ -74,8 +45,8 @@ fn run(long: bool) {
         }
         let scenario = path.to_str().unwrap();
         let summary = bench.json(&["run", scenario, "--no-vcd", "--out", "out"]);
-        let found = [judge(&schema, &summary), judge_settings(&bench, &summary)].concat();
-        all.extend(found.into_iter().map(|found| format!("{stem}: {found}")));
+        let found = judge(&schema, &summary).into_iter();
+        all.extend(found.map(|found| format!("{stem}: {found}")));
         judged += 1;
     }
     assert_eq!(all, [""; 0]);
@@ -101,7 +72,7 @@ fn another_summary_is_not_that_of_the_schema() {
     let good = bench.json(&["run", "waves/joint.toml", "--no-vcd"]);
     assert_eq!(judge(&schema, &good), [""; 0]);
     type Change = fn(&mut Value);
-    let cases: [(Change, &str); 7] = [
+    let cases: [(Change, &str); 11] = [
         (
             |summary| {
                 let samples = summary["samples"].take();
@@ -141,11 +112,109 @@ fn another_summary_is_not_that_of_the_schema() {
             |summary| summary["end_position"] = json!([1, 2]),
             "summary.end_position: [1,2] is not a list of its length",
         ),
+        (
+            |summary| summary["version"] = json!(2),
+            "summary.version: 2 is not 1",
+        ),
+        (
+            |summary| drop(summary["settings"].as_object_mut().unwrap().remove("arm")),
+            "summary.settings: \"arm\" is missing",
+        ),
+        (
+            |summary| summary["settings"]["piece"][0]["to_mm"] = json!(null),
+            "summary.settings.piece[0].to_mm: null is not of type \"array\"",
+        ),
+        (
+            |summary| summary["settings"]["rounding"] = json!("up"),
+            "summary.settings.rounding: \"up\" is not one of [\"nearest\",\"floor\"]",
+        ),
     ];
     for (change, expected) in cases {
         let mut other = good.clone();
         change(&mut other);
         assert_eq!(judge(&schema, &other).join(", "), expected);
+    }
+}
+
+/// Returns what of a value a kind of the schema does not allow.
+fn judge_as(schema: &Value, kind: &str, value: &Value) -> Vec<String> {
+    violations(schema, &schema["$defs"][kind], value, kind)
+}
+
+#[test]
+fn errors_are_those_of_the_schema() {
+    let bench = Bench::with("s.toml", "circuit = \"lead_angle\"\nstep = []\nwhat = 1\n");
+    let schema = schema();
+    let cases: [(&[&str], &str); 6] = [
+        (&["run", "s.toml"], "input"),
+        (&["list", "unit_lav"], "argument"),
+        (
+            &["list", "unit_law", "--set", "a=1", "--set", "b=1"],
+            "argument",
+        ),
+        (&["run", "--nonsense"], "usage"),
+        (&["check", "unit_law", "--merge", "none"], "usage"),
+        (&["check", "--merge", "none"], "input"),
+    ];
+    for (arguments, kind) in cases {
+        let done = bench.run(&[arguments, &["--json"]].concat());
+        let mut error: Value = serde_json::from_str(&done.stdout).expect("one value");
+        assert_eq!(error["error"]["kind"], kind, "{arguments:?}");
+        assert_eq!(judge_as(&schema, "error", &error), [""; 0], "{arguments:?}");
+        error["error"]["kind"] = json!("other");
+        error["version"] = json!("1");
+        assert_eq!(judge_as(&schema, "error", &error).len(), 2, "{arguments:?}");
+    }
+}
+
+#[test]
+fn the_report_of_a_check_is_that_of_the_schema() {
+    let (bench, schema) = (Bench::new(), schema());
+    let proof = ["check", "sync_stage"];
+    let literal = ["check", "unit_law", "--set", "variant=literal"];
+    for arguments in [&proof[..], &literal] {
+        let done = bench.run(&[arguments, &["--json"]].concat());
+        let mut report: Value = serde_json::from_str(&done.stdout).expect("one value");
+        assert_eq!(
+            judge_as(&schema, "check", &report),
+            [""; 0],
+            "{arguments:?}"
+        );
+        report["rows"][0]["ended"] = json!("proved");
+        assert_eq!(
+            judge_as(&schema, "check", &report).len(),
+            1,
+            "{arguments:?}"
+        );
+    }
+}
+
+/// Whatever is printed as JSON has the same version.
+#[test]
+fn every_json_has_the_version() {
+    let bench = Bench::with("line.hpgl", "PD400,0;");
+    let run = ["line.hpgl", "--to", "9", "--set", "clock_hz=100000"];
+    bench.succeed(&[&run[..], &["--set", "line_unit_ticks=500"]].concat());
+    let dump = "waves/line.vcd";
+    let commands: [&[&str]; 8] = [
+        &[
+            "line.hpgl",
+            "--no-vcd",
+            "--set",
+            "clock_hz=100000",
+            "--set",
+            "line_unit_ticks=500",
+        ],
+        &["table", "line.hpgl"],
+        &["check", "sync_stage"],
+        &["mutate", "sync_stage", "--runs", "1", "--ticks", "20"],
+        &["compare", dump, dump],
+        &["list", "sync_stage"],
+        &["keys"],
+        &["keys", "machine"],
+    ];
+    for command in commands {
+        assert_eq!(bench.json(command)["version"], 1, "{command:?}");
     }
 }
 

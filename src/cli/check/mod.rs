@@ -7,9 +7,10 @@ mod tasks;
 mod work;
 
 use super::chosen::Changes;
-use super::{Failure, print, print_json};
+use super::{Failure, json, print};
 use clap::Args;
-use report::{Asked, Report};
+use report::Asked;
+pub use report::Report;
 use shard::Shard;
 use std::path::PathBuf;
 
@@ -30,7 +31,7 @@ pub struct Arguments {
     /// Does part I of N of the work.
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
-    /// Puts the parts of a work, as `--shard --json` printed them, together in one table.
+    /// Joins the parts that `--shard --json` printed into one table.
     #[arg(
         long,
         value_name = "FILES",
@@ -59,7 +60,7 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
         parts::merge(&arguments.merge)?
     };
     match arguments.json {
-        true => print_json(&report)?,
+        true => json::print_alone(&report)?,
         false => print(&report.table())?,
     }
     report.faults()

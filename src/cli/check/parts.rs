@@ -3,7 +3,7 @@
 use super::report::{Asked, Ended, Report, Row};
 use super::shard::Shard;
 use super::tasks::{self, Task};
-use crate::cli::Failure;
+use crate::cli::{Failure, json};
 use motion_rtl::input::{Fault, read_string};
 use std::path::{Path, PathBuf};
 
@@ -32,10 +32,15 @@ fn read(path: &Path) -> Result<(Report, Vec<Task>), Failure> {
             PRINTED.into(),
         )
     })?;
-    let version = env!("CARGO_PKG_VERSION");
-    if report.version != version {
+    let (own, program) = (json::VERSION, env!("CARGO_PKG_VERSION"));
+    if report.version != own {
         let problem = format!("is {}", report.version);
-        return Err(fault(path, 0, "version", problem, version.to_owned()));
+        return Err(fault(path, 0, "version", problem, own.to_string()));
+    }
+    if report.program_version != program {
+        let problem = format!("is {}", report.program_version);
+        let allowed = program.to_owned();
+        return Err(fault(path, 0, "program_version", problem, allowed));
     }
     let Shard { part, of } = report.shard;
     if !(1..=of).contains(&part) {

@@ -1,8 +1,8 @@
 //! The result as a table and as JSON.
 
 use super::shard::Shard;
-use crate::cli::Failure;
 use crate::cli::chosen::Changes;
+use crate::cli::{Failure, json};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -13,26 +13,34 @@ pub const ITS_BLOCKS: &str = "its blocks; what is tested of it stands in its not
 
 /// Arguments of the command that the report answers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Asked {
+    /// Circuits; all if empty.
     pub circuits: Vec<String>,
     /// Changed keys, as on the command line.
     pub changes: Changes,
+    /// States after which a proof is given up.
     pub limit: u32,
 }
 
 /// Kind of a row: a proof over all states or a sweep over all cases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
+    /// A proof over all states.
     Proof,
+    /// A sweep over all cases.
     Sweep,
 }
 
 /// Outcome of a proof or a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Ended {
+    /// The properties hold.
     Holds,
     /// A counterexample or a failing case exists.
     Broken,
@@ -44,19 +52,26 @@ pub enum Ended {
 
 /// A proof or a sweep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Row {
+    /// Name of the circuit.
     pub circuit: String,
+    /// A proof or a sweep.
     pub kind: Kind,
     /// Widths of the circuit in bits.
     pub widths: BTreeMap<String, u64>,
     /// The properties that were checked.
     pub invariants: Vec<String>,
+    /// Outcome.
     pub ended: Ended,
     /// The states of a proof, the cases of a sweep.
     pub states: Option<u64>,
+    /// Transitions between the states of a proof.
     pub transitions: Option<u64>,
+    /// Most ticks from power-on to a state for the first time.
     pub depth: Option<u64>,
+    /// Duration in seconds.
     pub seconds: f64,
     /// Report of the failure.
     pub fault: Option<String>,
@@ -76,11 +91,18 @@ impl Row {
 
 /// All rows of a work, or of a part of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Report {
-    pub version: String,
+    /// Version of the keys.
+    pub version: u32,
+    /// Version of the program that checked.
+    pub program_version: String,
+    /// Arguments of the command.
     pub asked: Asked,
+    /// Part of the work.
     pub shard: Shard,
+    /// Proofs and sweeps.
     pub rows: Vec<Row>,
     /// The circuits that are neither proved nor swept.
     pub too_wide: Vec<String>,
@@ -89,7 +111,8 @@ pub struct Report {
 impl Report {
     pub fn new(asked: Asked, shard: Shard, rows: Vec<Row>, too_wide: Vec<String>) -> Self {
         Report {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
+            version: json::VERSION,
+            program_version: env!("CARGO_PKG_VERSION").to_owned(),
             asked,
             shard,
             rows,

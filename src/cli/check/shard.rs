@@ -6,6 +6,7 @@ use std::str::FromStr;
 
 /// A part of the work; part 1 of 1 is all of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Shard {
     /// Number of the part, from 1.

@@ -3,6 +3,7 @@
 use super::report::{Ended, Kind, Row};
 use super::shard::Shard;
 use super::tasks::{self, Task};
+use crate::cli::written::Written;
 use crate::cli::{Failure, threads};
 use indicatif::{HumanCount, MultiProgress, ProgressBar, ProgressStyle};
 use motion_rtl::check::Proof;
@@ -38,15 +39,27 @@ impl Bars {
     }
 }
 
+/// Place for the waves of counterexamples.
+struct Waves<'a> {
+    directory: &'a Path,
+    /// Files that `clean` knows.
+    list: Written,
+}
+
 /// The rows of a part of the tasks, in their order. Proofs run side by side, a thread each; then the
 /// sweeps one by one, each on all threads, so that the time of a row is its own.
 pub fn run(tasks: &[Task], shard: Shard, limit: u32, out: &Path) -> Result<Vec<Row>, Failure> {
     threads::start()?;
     let mine = tasks::of_shard(shard, tasks);
     let bars = Bars::new(mine.len());
+    // Before the first counterexample: files that are there are not of this command.
+    let out = Waves {
+        directory: out,
+        list: Written::read(out),
+    };
     let done = |(index, task): (usize, &Task)| {
         let line = bars.line(task);
-        let row = row(task, shard, limit, out, &line);
+        let row = row(task, shard, limit, &out, &line);
         line.finish_and_clear();
         bars.all.inc(1);
         row.map(|row| (index, row))
@@ -67,7 +80,7 @@ fn row(
     task: &Task,
     shard: Shard,
     limit: u32,
-    out: &Path,
+    out: &Waves<'_>,
     line: &ProgressBar,
 ) -> Result<Row, Failure> {
     let start = Instant::now();
@@ -111,14 +124,14 @@ fn prove(
     task: &Task,
     circuit: &dyn AnyCircuit,
     limit: u32,
-    out: &Path,
+    out: &Waves<'_>,
     line: &ProgressBar,
 ) -> Result<Row, Failure> {
     let name = task.circuit();
     let row = begun(task, circuit.invariants());
     let search = ProofSearch {
         states: limit,
-        waves: Some(out),
+        waves: Some(out.directory),
         ..ProofSearch::default()
     };
     let verdict = circuit.prove(&search, &mut |progress| {
@@ -154,7 +167,7 @@ fn prove(
             )),
             ..row
         },
-        Ok(Verdict::Broken { report, waves }) => broken(row, &report, waves),
+        Ok(Verdict::Broken { report, waves }) => broken(row, &report, waves, out),
     })
 }
 
@@ -162,7 +175,7 @@ fn sweep(
     task: &Task,
     law: &dyn AnySweep,
     shard: Shard,
-    out: &Path,
+    out: &Waves<'_>,
     line: &ProgressBar,
 ) -> Result<Row, Failure> {
     let name = task.circuit();
@@ -180,7 +193,7 @@ fn sweep(
     let swept = law.cases().and_then(|cases| {
         let range = shard.range(cases);
         line.set_length(range.end - range.start);
-        law.sweep(range, None, Some(out), &|cases| {
+        law.sweep(range, None, Some(out.directory), &|cases| {
             line.inc(cases);
             let (done, all) = (HumanCount(line.position()), line.length().unwrap_or(0));
             line.set_message(format!("{done} of {} cases", HumanCount(all)));
@@ -191,7 +204,7 @@ fn sweep(
             states: Some(cases),
             ..row
         },
-        Ok(Verdict::Broken { report, waves }) => broken(row, &report, waves),
+        Ok(Verdict::Broken { report, waves }) => broken(row, &report, waves, out),
         Ok(Verdict::Undecided(_)) => Row {
             ended: Ended::NotDecided,
             fault: Some(format!("{name}: not decided")),
@@ -207,9 +220,10 @@ fn sweep(
 
 /// Returns the row of a broken property. The counterexample is reported even if its waves cannot be
 /// written.
-fn broken(row: Row, report: &str, waves: Result<Vec<PathBuf>, RunError>) -> Row {
+fn broken(row: Row, report: &str, waves: Result<Vec<PathBuf>, RunError>, out: &Waves<'_>) -> Row {
     let waves = match waves {
         Ok(paths) => {
+            out.list.add(paths.iter().map(PathBuf::as_path));
             let paths = paths.iter().map(|path| path.display().to_string());
             paths.collect::<Vec<_>>().join(", ")
         }

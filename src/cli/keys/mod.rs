@@ -1,8 +1,8 @@
 //! `keys`: the keys of a job's scenarios, with types, units, defaults and ranges.
 
-mod schema;
+pub mod schema;
 
-use super::{Failure, errors, print, print_json};
+use super::{Failure, json, print};
 use clap::Args;
 use motion_rtl::nearest::did_you_mean;
 use motion_rtl::registry::{self, CATALOGUE, Entry};
@@ -14,8 +14,8 @@ use std::fmt::Write as _;
 /// Arguments of `keys`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Job, named as by the key `circuit` of scenarios, or circuit of the catalogue; by default the
-    /// names of all are printed.
+    /// Job, which is a value of the key `circuit`, or circuit of the catalogue; without it, all names
+    /// are printed.
     name: Option<String>,
     /// Prints the keys as JSON.
     #[arg(long)]
@@ -28,7 +28,6 @@ pub struct Arguments {
 /// Names without their keys.
 #[derive(Debug, Serialize)]
 struct Names {
-    version: u32,
     jobs: Vec<&'static str>,
     circuits: Vec<&'static str>,
 }
@@ -36,7 +35,6 @@ struct Names {
 /// Keys of one name, which a job and a circuit can have both.
 #[derive(Debug, Serialize)]
 struct Keys {
-    version: u32,
     /// Keys of the job's scenarios.
     #[serde(skip_serializing_if = "Option::is_none")]
     scenario: Option<Vec<Row>>,
@@ -48,17 +46,12 @@ struct Keys {
 pub fn keys(arguments: &Arguments) -> Result<(), Failure> {
     let jobs = Runnable::ALL.map(Runnable::name).to_vec();
     let circuits: Vec<_> = CATALOGUE.iter().map(|entry| entry.name).collect();
-    let version = errors::VERSION;
     let Some(name) = &arguments.name else {
         let lines = |names: &[&str]| format!("  {}\n", names.join("\n  "));
         let text = format!("jobs\n{}\ncircuits\n{}", lines(&jobs), lines(&circuits));
-        let names = Names {
-            version,
-            jobs,
-            circuits,
-        };
+        let names = Names { jobs, circuits };
         return match arguments.json {
-            true => print_json(&names),
+            true => json::print(&names),
             false => print(&text),
         };
     };
@@ -82,19 +75,18 @@ pub fn keys(arguments: &Arguments) -> Result<(), Failure> {
     }
     if let (Some(job), true) = (job, arguments.json_schema) {
         let (keys, defaults) = job.keys();
-        return print_json(&schema::of(job, &keys, &defaults));
+        return json::print_alone(&schema::of(job, &keys, &defaults));
     }
     let scenario = job.map(|job| {
         let (keys, defaults) = job.keys();
         rows(&keys, &defaults)
     });
     let keys = Keys {
-        version,
         scenario,
         circuit: circuit.map(Entry::keys),
     };
     match arguments.json {
-        true => print_json(&keys),
+        true => json::print(&keys),
         false => print(&keys.text()),
     }
 }

@@ -58,7 +58,7 @@ fn limit(schema: &mut Map<String, Value>, key: &Key) {
 }
 
 /// The schema of a value.
-fn value(shape: Shape) -> Value {
+pub fn value(shape: Shape) -> Value {
     match shape {
         Shape::Flag => json!({ "type": "boolean" }),
         Shape::Whole { signed: false } => json!({ "type": "integer", "minimum": 0 }),

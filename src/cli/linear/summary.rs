@@ -18,7 +18,10 @@ pub struct Summary {
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Settings of the run, by the keys of `keys linear_interpolator --json-schema`.
-    #[cfg_attr(feature = "schema", schemars(with = "crate::cli::schema::Settings"))]
+    #[cfg_attr(
+        feature = "schema",
+        schemars(with = "crate::cli::schema::Settings<Settings>")
+    )]
     pub settings: Settings,
     /// Scans of the run.
     pub scans: usize,

@@ -18,7 +18,10 @@ pub struct Summary {
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Settings of the run, by the keys of `keys machine --json-schema`.
-    #[cfg_attr(feature = "schema", schemars(with = "crate::cli::schema::Settings"))]
+    #[cfg_attr(
+        feature = "schema",
+        schemars(with = "crate::cli::schema::Settings<Settings>")
+    )]
     pub settings: Settings,
     /// True if both machines came to rest at the job's end, on the nearest step and count.
     pub exact: bool,

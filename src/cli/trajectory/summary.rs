@@ -18,7 +18,10 @@ pub struct Summary<'r> {
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Settings of the run, by the keys of `keys trajectory_controller --json-schema`.
-    #[cfg_attr(feature = "schema", schemars(with = "crate::cli::schema::Settings"))]
+    #[cfg_attr(
+        feature = "schema",
+        schemars(with = "crate::cli::schema::Settings<Settings>")
+    )]
     pub settings: Settings,
     /// Number of axes.
     pub axes: usize,

@@ -1,0 +1,30 @@
+//! Results as JSON.
+
+use super::{Failure, errors, to_standard_output};
+use serde::Serialize;
+use std::io;
+
+/// Version of the keys of everything that is printed as JSON; it grows when a key goes or changes
+/// its meaning.
+pub const VERSION: u32 = 1;
+
+/// A value with the version of its keys.
+#[derive(Debug, Serialize)]
+struct Versioned<'a, T> {
+    version: u32,
+    #[serde(flatten)]
+    value: &'a T,
+}
+
+/// Prints the keys of a value and their version.
+pub fn print(value: &impl Serialize) -> Result<(), Failure> {
+    let version = VERSION;
+    print_alone(&Versioned { version, value })
+}
+
+/// Prints a value that has a version of its own or needs none.
+pub fn print_alone(value: &impl Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(io::Error::from)?;
+    errors::is_printed();
+    to_standard_output(&(text + "\n"))
+}
