@@ -11,10 +11,10 @@ use std::path::PathBuf;
 pub struct Arguments {
     #[command(flatten)]
     pub input: Input,
-    /// Directory for the files.
+    /// Directory for the files; `waves` by default.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// The format of the waves.
+    /// Format of the waves.
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t)]
     pub format: Format,
     /// Writes no waves and no save file.
@@ -23,23 +23,24 @@ pub struct Arguments {
     /// First tick in the waves and the series.
     #[arg(long, value_name = "TICK", allow_negative_numbers = true)]
     pub from: Option<u64>,
-    /// End of the window, exclusive.
+    /// First tick after the window of the waves and the series.
     #[arg(long, value_name = "TICK", allow_negative_numbers = true)]
     pub to: Option<u64>,
-    /// A scope or signal in the waves, as `pulse_interpolator.x`; repeated for more. Without it all.
+    /// Scope or signal to put into the waves, such as `pulse_interpolator.x`; all by default. Can be
+    /// repeated.
     #[arg(long, value_name = "SCOPE")]
     pub only: Vec<String>,
-    /// Writes the circuit as Verilog too, with a testbench and the run's inputs as its stimulus.
+    /// Also writes the circuit as Verilog, with a testbench and the inputs of the run as its stimulus.
     #[arg(long)]
     pub verilog: bool,
-    /// Writes how the circuit was run, as `plan` shows it, with how often each block ran.
+    /// Also writes how the circuit was run: what `plan` shows, and how often each block ran.
     #[arg(long)]
     pub plan: bool,
-    /// Writes commanded and actual positions and their difference, one row per sampling period, to
+    /// Writes commanded and actual positions and their differences, one row per sampling period, to
     /// a .csv file or, for NumPy, a .npy file.
     #[arg(long, value_name = "FILE", conflicts_with = "waves_of")]
     pub series: Option<SeriesPath>,
-    /// Writes a row of the series every TICKS ticks instead.
+    /// Writes a row of the series every TICKS ticks instead of every sampling period.
     #[arg(
         long,
         value_name = "TICKS",
@@ -48,18 +49,18 @@ pub struct Arguments {
         value_parser = value_parser!(u64).range(1..)
     )]
     pub series_every: Option<u64>,
-    /// Plays what the circuit is compared with too, as `--set beside=true` does.
+    /// Also runs the systems with which the circuit is compared, as `--set beside=true` does.
     #[arg(long)]
     pub beside: bool,
-    /// Writes the waves of this system of the summary, to STEM_NAME.vcd, and plays it alone; `list`
-    /// has the names.
+    /// Runs only this system of the summary, and writes its waves to STEM_NAME.vcd; `list` shows the
+    /// names.
     #[arg(long, value_name = "NAME", conflicts_with_all = ["no_vcd", "beside", "segments"])]
     pub waves_of: Option<String>,
-    /// Prints every segment, arc, positioning or signal, not the worst or the last alone (not of
-    /// the pulse interpolator).
+    /// Prints every segment, arc, positioning or signal, not only some of them. The pulse
+    /// interpolator has none.
     #[arg(long)]
     pub segments: bool,
-    /// Shows the waves in GTKWave, or in Surfer where that is not there.
+    /// Shows the waves in GTKWave, or in Surfer if GTKWave is not installed.
     #[arg(long, conflicts_with = "no_vcd")]
     pub open: bool,
     /// Prints the summary as JSON.

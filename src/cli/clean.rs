@@ -12,13 +12,13 @@ use std::path::PathBuf;
 /// Arguments of `clean`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Directory with the results of runs.
+    /// Directory with the files of runs.
     #[arg(value_name = "DIR", default_value = "waves")]
     directory: PathBuf,
-    /// Names the files and removes none.
+    /// Names the files, and removes none.
     #[arg(long, conflicts_with = "yes")]
     dry_run: bool,
-    /// Removes them without asking.
+    /// Removes the files without asking.
     #[arg(long, short)]
     yes: bool,
 }

@@ -9,7 +9,9 @@ use serde::Serialize;
 use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::fmt;
+use std::fs;
 use std::io;
+use std::mem;
 use std::path::{Path, PathBuf};
 
 /// Stem of the claim on all exports of a directory: no circuit is called so.
@@ -21,6 +23,7 @@ pub struct Files {
     stem: PathBuf,
     complete: Vec<AtomicFile>,
     exports: Vec<Export>,
+    notes: Vec<String>,
     /// Another run into these files is refused.
     _claim: Option<Claim>,
     // Last, as they can go only when the files are gone.
@@ -135,6 +138,7 @@ impl Files {
             stem: directory.join(stem),
             complete: Vec::new(),
             exports: Vec::new(),
+            notes: Vec::new(),
             _claim: claim,
             directories: vec![created],
         })
@@ -178,6 +182,44 @@ impl Files {
         self.fill(file, text)
     }
 
+    /// Writes the save file of the waves. A file of its name that no run wrote, or that was changed
+    /// since, stays if it has another text: somebody arranged these signals. The save file then
+    /// gets a number.
+    pub fn write_save(&mut self, text: &str) -> Result<(), Failure> {
+        let list = Written::read(self.directory());
+        let stem = self.stem.file_name().unwrap_or_default();
+        let stem = stem.to_string_lossy().into_owned();
+        let mut taken = Vec::new();
+        loop {
+            let name = match taken.len() {
+                0 => format!("{stem}.gtkw"),
+                count => format!("{stem}.{}.gtkw", count + 1),
+            };
+            // A save file has its own name.
+            let text = text.replacen(&format!("\"{stem}.gtkw\""), &format!("\"{name}\""), 1);
+            let path = self.stem.with_file_name(&name);
+            let is_free = !path.is_file() || list.is_unchanged(&path);
+            if !is_free && fs::read(&path).ok().as_deref() != Some(text.as_bytes()) {
+                taken.push(path.display().to_string());
+                continue;
+            }
+            if !taken.is_empty() {
+                self.notes.push(format!(
+                    "{} stays, as no run wrote it or it was changed since: the save file of this \
+                     run is {}",
+                    taken.join(", "),
+                    path.display()
+                ));
+            }
+            return self.write_as(&name, &text);
+        }
+    }
+
+    /// Takes the remarks on the files.
+    pub fn take_notes(&mut self) -> Vec<String> {
+        mem::take(&mut self.notes)
+    }
+
     fn fill(&mut self, mut file: AtomicFile, text: &str) -> Result<(), Failure> {
         io::Write::write_all(&mut file, text.as_bytes())?;
         self.push(file);
@@ -209,21 +251,15 @@ impl Files {
             export.check(self.directory())?;
         }
         // Each directory has a list of its own files.
-        let paths: Vec<_> = self
-            .complete
-            .iter()
-            .map(|file| file.path().to_owned())
-            .collect();
+        let paths = self.complete.iter().map(|file| file.path().to_owned());
+        let paths: Vec<_> = paths.collect();
         let directories: BTreeSet<_> = paths.iter().map(|path| parent(path)).collect();
-        let lists = directories.into_iter().map(|directory| {
-            let inside = paths.iter().map(PathBuf::as_path);
-            let list = Written::read(directory);
-            let ours = list.free(inside.filter(|path| parent(path) == directory));
-            (list, ours)
-        });
-        let lists: Vec<_> = lists.collect();
+        let lists: Vec<_> = directories.into_iter().map(Written::read).collect();
         let named = commit_all(self.complete)?;
-        lists.iter().for_each(|(list, ours)| list.add(ours));
+        for list in lists {
+            let paths = paths.iter().map(PathBuf::as_path);
+            list.add(paths.filter(|path| parent(path) == list.directory()));
+        }
         Ok(named.iter().map(|path| Named::new(path)).collect())
     }
 }

@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 use motion_rtl::input::{
-    Drawing, Fault, Kind, LARGEST_FILE, Options, as_text, gcode, hpgl, read_bytes,
+    Drawing, Fault, Kind, LARGEST_FILE, Language, Options, as_text, gcode, hpgl, read_bytes,
 };
 use std::io::{Read as _, stdin};
 use std::path::Path;
@@ -26,6 +26,15 @@ pub enum Format {
 }
 
 impl Format {
+    /// Returns the language of a drawing or a part program.
+    pub fn language(self) -> Option<Language> {
+        match self {
+            Format::Hpgl => Some(Language::Hpgl),
+            Format::Gcode => Some(Language::Gcode),
+            Format::Toml | Format::Csv => None,
+        }
+    }
+
     /// Returns the kind of input that has this format.
     pub fn kind(self) -> Kind {
         match self {

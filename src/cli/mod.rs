@@ -15,6 +15,7 @@ mod files;
 mod given;
 mod help;
 mod job;
+mod json;
 pub mod keys;
 mod lead_angle;
 mod limits;
@@ -62,6 +63,7 @@ use motion_rtl::registry::WrongPair;
 use motion_rtl::sim::RunError;
 use std::borrow::Cow;
 use std::io::{self, Write};
+use voice::Level;
 
 /// Failures of a command, each with its exit code.
 #[derive(Debug, thiserror::Error)]
@@ -106,7 +108,7 @@ fn lines(wrong: &[WrongPair]) -> String {
         let (problem, allowed) = (shown(&wrong.problem, SHOWN), shown(&wrong.allowed, LISTED));
         format!("--set {}: {problem}; allowed: {allowed}", wrong.pair)
     });
-    lines.collect::<Vec<_>>().join("\nerror: ")
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 impl From<JobError> for Failure {
@@ -123,9 +125,13 @@ impl From<JobError> for Failure {
 impl Failure {
     /// Returns the message for standard error.
     pub fn report(&self) -> String {
+        let head = voice::head(Level::Error);
+        let text = plain(&self.to_string()).into_owned();
         match self {
             Failure::Input(fault) => faults::report(fault),
-            failure => plain(&format!("error: {failure}")).into_owned(),
+            // Each line is an error of its own.
+            Failure::Pairs(_) => head.clone() + &text.replace('\n', &format!("\n{head}")),
+            _ => head + &text,
         }
     }
 
@@ -172,7 +178,8 @@ fn warn(text: &str) {
         return;
     }
     // Standard error may be closed.
-    let _ = writeln!(io::stderr(), "warning: {}", plain(text));
+    let head = voice::head(Level::Warning);
+    let _ = writeln!(io::stderr(), "{head}{}", plain(text));
 }
 
 /// Returns the result of printing to standard output.
@@ -188,11 +195,4 @@ pub fn printed(done: io::Result<()>) -> Result<(), Failure> {
         done => Ok(done
             .map_err(|error| io::Error::new(error.kind(), format!("standard output: {error}")))?),
     }
-}
-
-/// Prints a value as JSON.
-fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(value).map_err(io::Error::from)?;
-    errors::is_printed();
-    to_standard_output(&(text + "\n"))
 }

@@ -34,10 +34,10 @@ enum Command {
     /// Compiles a drawing or a part program into the pattern memory's table.
     #[command(after_help = help::TABLE)]
     Table(super::table::Arguments),
-    /// Proves the invariants of the circuits over every state and input at small widths.
+    /// Proves the invariants of circuits over every state and input, at small widths.
     #[command(after_help = help::CHECK)]
     Check(super::check::Arguments),
-    /// Puts single faults into circuits, and says which no chart, proof or law finds.
+    /// Injects single faults into circuits, and lists those that no chart, proof or law finds.
     #[command(after_help = help::MUTATE)]
     Mutate(super::mutate::Arguments),
     /// Writes a circuit as Verilog, with a testbench, its stimulus and the golden waves.
@@ -46,10 +46,10 @@ enum Command {
     /// Compares a waveform, such as a simulator's, with a golden one, tick by tick.
     #[command(after_help = help::COMPARE)]
     Compare(super::compare::Arguments),
-    /// Shows how a circuit is run: its blocks, what wakes them, how often each runs.
+    /// Shows how the engine runs a circuit: its blocks, what wakes them, how often each runs.
     #[command(after_help = help::PLAN)]
     Plan(super::plan::Arguments),
-    /// Lists circuits with ports and widths, and scenarios; or a circuit with what it is made of.
+    /// Lists circuits with ports and keys, and scenarios; or one circuit with its parts.
     #[command(after_help = help::LIST)]
     List(super::list::Arguments),
     /// Lists the keys of a job's scenarios or of a circuit: types, units, values and ranges.
@@ -58,7 +58,7 @@ enum Command {
     /// Removes the files that runs have written into a directory, after naming them.
     #[command(after_help = help::CLEAN)]
     Clean(super::clean::Arguments),
-    /// Prints a JSON schema of the summaries that `run --json` prints.
+    /// Prints a JSON schema of what `run --json` and `check --json` print, and of errors.
     #[cfg(feature = "schema")]
     #[command(after_help = help::SCHEMA)]
     Schema,
@@ -74,8 +74,16 @@ enum Command {
 
 /// Returns the description of the command line.
 pub fn description() -> clap::Command {
-    Arguments::command()
+    // A table is of the pulse interpolator, which takes fewer inputs than `run`.
+    Arguments::command().mut_subcommands(|command| match command.get_name() {
+        "table" => command.mut_arg("input", |file| file.help(TABLE_FILE)),
+        _ => command,
+    })
 }
+
+/// Input of `table` in its help.
+const TABLE_FILE: &str = "Scenario of the pulse interpolator (.toml), HPGL drawing or G-code \
+                          program; `-` for standard input";
 
 /// Runs the program with the words of its command line, of which the first is its name; returns
 /// the exit code.
@@ -130,7 +138,10 @@ fn with_run(mut words: Vec<OsString>) -> Result<Vec<OsString>, Failure> {
         .get_subcommands()
         .map(|command| command.get_name().to_owned())
         .collect();
-    let asked = ["-h", "--help", "-V", "--version", "help"];
+    if word == "help" {
+        return Ok(options_first(words, at));
+    }
+    let asked = ["-h", "--help", "-V", "--version"];
     if asked.contains(&&*word) || commands.contains(&word) {
         return Ok(words);
     }
@@ -145,6 +156,25 @@ fn with_run(mut words: Vec<OsString>) -> Result<Vec<OsString>, Failure> {
     }
     words.insert(at, "run".into());
     Ok(words)
+}
+
+/// Returns the words with options of all commands before `help` at `at`, which takes only names of
+/// commands.
+fn options_first(mut words: Vec<OsString>, at: usize) -> Vec<OsString> {
+    let mut names = words.split_off(at).into_iter().peekable();
+    let mut others = Vec::new();
+    while let Some(word) = names.next() {
+        match word.to_str() {
+            Some("--color") if names.peek().is_some() => {
+                words.push(word);
+                words.extend(names.next());
+            }
+            Some(option) if voice::is_option(option) => words.push(word),
+            _ => others.push(word),
+        }
+    }
+    words.extend(others);
+    words
 }
 
 /// Returns the index of the first word that is no option of all commands.

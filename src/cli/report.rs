@@ -3,7 +3,7 @@
 use super::files::{Files, Named};
 use super::setup::Setup;
 use super::viewer::Viewer;
-use super::{Failure, errors, print, print_json, progress, warn};
+use super::{Failure, json, print, progress, warn};
 use serde::Serialize;
 use std::fmt::{self, Write as _};
 use std::ops::Range;
@@ -12,8 +12,6 @@ use std::ops::Range;
 #[derive(Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Outcome {
-    /// Version of the keys.
-    pub version: u32,
     /// The circuit that ran.
     pub circuit: &'static str,
     /// The input file, or the scenario's name.
@@ -38,7 +36,6 @@ impl Outcome {
     /// Creates the outcome of a run without complaints, before its files are written.
     pub fn new(circuit: &'static str, input: &str, clock_hz: u64, ticks: u64) -> Self {
         Outcome {
-            version: errors::VERSION,
             circuit,
             input: input.to_owned(),
             clock_hz,
@@ -91,7 +88,11 @@ pub trait Report: Serialize {
 }
 
 /// Ends a run: names its files, prints its summary, fails where it complains.
-pub fn conclude(setup: &Setup<'_>, files: Files, mut summary: impl Report) -> Result<(), Failure> {
+pub fn conclude(
+    setup: &Setup<'_>,
+    mut files: Files,
+    mut summary: impl Report,
+) -> Result<(), Failure> {
     let Setup {
         arguments, options, ..
     } = setup;
@@ -101,12 +102,10 @@ pub fn conclude(setup: &Setup<'_>, files: Files, mut summary: impl Report) -> Re
     let window = [start, end.min(outcome.ticks).max(start)];
     outcome.vcd_window = (!arguments.no_vcd).then_some(window);
     progress::end();
+    outcome.warnings.extend(files.take_notes());
     outcome.files = files.commit()?;
-    if let Some(viewer) = viewer {
-        viewer.open(&outcome.files);
-    }
     match arguments.json {
-        true => print_json(&summary)?,
+        true => json::print(&summary)?,
         false => {
             let mut text = String::new();
             // Writing to a string does not fail.
@@ -119,7 +118,11 @@ pub fn conclude(setup: &Setup<'_>, files: Files, mut summary: impl Report) -> Re
             print(&text)?;
         }
     }
-    match &summary.outcome().complaints[..] {
+    let outcome = summary.outcome();
+    if let Some(viewer) = viewer {
+        viewer.open(&outcome.files);
+    }
+    match &outcome.complaints[..] {
         [] => Ok(()),
         complaints => Err(Failure::Check(complaints.join("\n"))),
     }

@@ -1,6 +1,6 @@
 //! Scenarios that ship with the crate, with their inputs; the first is the default of `run`.
 
-use motion_rtl::input::{Drawing, Fault, Options, read_text_with};
+use motion_rtl::input::{Drawing, Fault, Language, Options, read_text_with};
 use motion_rtl::jobs::pulse_interpolator::Table;
 use motion_rtl::jobs::pulse_interpolator::table::read;
 use motion_rtl::scenario::Loaded;
@@ -175,6 +175,11 @@ impl Shipped {
             Some(table) => read::read(table.file, table.text, clock_hz),
             None => read::read_path(path, clock_hz),
         }
+    }
+
+    /// Returns the language of its drawing.
+    pub fn language(&self) -> Option<Language> {
+        Language::of(Path::new(self.input.as_ref()?.file))
     }
 
     /// Returns its drawing; `None` if the scenario needs no input.

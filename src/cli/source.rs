@@ -3,9 +3,9 @@
 use super::Failure;
 use super::given::{Format, Given};
 use super::shipped::{self, SHIPPED, Shipped};
-use clap::Args;
+use clap::{Args, value_parser};
 use motion_rtl::input::position_log::{self, Columns, PositionLog};
-use motion_rtl::input::{Drawing, Fault, Kind, Options, read_path_with};
+use motion_rtl::input::{Drawing, Fault, Kind, Language, Options, read_path_with};
 use motion_rtl::jobs::pulse_interpolator::Table;
 use motion_rtl::jobs::pulse_interpolator::table::read;
 use motion_rtl::nearest::nearest;
@@ -17,30 +17,35 @@ use std::path::{Path, PathBuf};
 /// Arguments that name the scenario and its input.
 #[derive(Debug, Clone, Default, Args)]
 pub struct Input {
-    /// Scenario (.toml), HPGL drawing, G-code program or position log (.csv), or `-` for standard
-    /// input; without it the shipped scenario waves/machine.toml.
+    /// Scenario (.toml), HPGL drawing, G-code program or position log (.csv); `-` for standard
+    /// input. By default the shipped scenario waves/machine.toml.
     #[arg(value_name = "FILE")]
     pub input: Option<PathBuf>,
-    /// Format of FILE; without it the extension decides. Standard input needs it.
+    /// Format of FILE; by default the extension decides. Required for standard input.
     #[arg(long, value_enum, value_name = "FORMAT", requires = "input")]
     pub input_format: Option<Format>,
     /// Overrides a key of the scenario.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub sets: Vec<String>,
-    /// Skips, with a warning, HPGL commands that are unknown or incomplete, even if they may move
-    /// the pen.
+    /// Skips HPGL commands that are unknown or incomplete, with a warning, even if they may move the
+    /// pen.
     #[arg(long)]
     pub lenient: bool,
-    /// Refuses G-code words that say nothing about the path, instead of skipping them.
+    /// Refuses G-code words without effect on the path, instead of skipping them.
     #[arg(long)]
     pub strict: bool,
-    /// Most lines of a G-code program to run, counted each time in loops and calls; 10000000 by
-    /// default.
-    #[arg(long, value_name = "LINES")]
+    /// Greatest number of lines of a G-code program to run; lines in loops and calls count each
+    /// time. 10000000 by default.
+    #[arg(
+        long,
+        value_name = "LINES",
+        allow_negative_numbers = true,
+        value_parser = value_parser!(u64).range(1..)
+    )]
     pub most_lines: Option<u64>,
-    /// Looks in a directory for the files of subroutines that a G-code program calls: NAME.ngc for
-    /// O<NAME> CALL, 2.ngc or O0002.nc for M98 P2. Once for each directory, before those of
-    /// program.subroutine_path.
+    /// Directory with the files of subroutines that a G-code program calls: NAME.ngc for
+    /// O<NAME> CALL, 2.ngc or O0002.nc for M98 P2. Can be repeated; searched before the directories
+    /// of program.subroutine_path.
     #[arg(long, value_name = "DIR")]
     pub subroutines: Vec<PathBuf>,
 }
@@ -66,6 +71,46 @@ impl Input {
 }
 
 impl Input {
+    /// Refuses options of a language in which the input is not written.
+    fn check_uses(&self, origin: &Origin) -> Result<(), Failure> {
+        let options = [
+            ("--lenient", Language::Hpgl, self.lenient),
+            ("--strict", Language::Gcode, self.strict),
+            ("--most-lines", Language::Gcode, self.most_lines.is_some()),
+            (
+                "--subroutines",
+                Language::Gcode,
+                !self.subroutines.is_empty(),
+            ),
+        ];
+        let (language, found) = match origin {
+            Origin::File(path) => match (Language::of(path), Kind::of(path)) {
+                (Some(language), _) => (Some(language), language.to_string()),
+                (None, Ok(kind)) => (None, kind.to_string()),
+                // Refused when it is read.
+                (None, Err(_)) => return Ok(()),
+            },
+            Origin::Given(given) => match given.format.language() {
+                Some(language) => (Some(language), language.to_string()),
+                None => (None, given.format.kind().to_string()),
+            },
+            Origin::Crate(shipped) => match shipped.language() {
+                Some(language) => (Some(language), language.to_string()),
+                None => (None, NO_DRAWING.to_owned()),
+            },
+            Origin::Nowhere => (None, NO_DRAWING.to_owned()),
+        };
+        let mut given = options.iter().filter(|(_, _, is_given)| *is_given);
+        match given.find(|(_, of, _)| Some(*of) != language) {
+            None => Ok(()),
+            Some((field, of, _)) => Err(Failure::Argument {
+                field,
+                problem: format!("is for {of}; the input is {found}"),
+                allowed: format!("{of}, or a run without {field}"),
+            }),
+        }
+    }
+
     /// Returns the directories of subroutines: those of the command line, then the scenario's.
     fn directories(&self, loaded: &Loaded) -> Result<Vec<PathBuf>, Fault> {
         let allowed = || "directories with subroutines".to_owned();
@@ -101,6 +146,9 @@ pub struct Source {
     options: Options,
 }
 
+/// Input of a scenario that names none.
+const NO_DRAWING: &str = "no drawing";
+
 /// Location of an input.
 #[derive(Debug)]
 enum Origin {
@@ -115,9 +163,11 @@ enum Origin {
 }
 
 impl Source {
-    /// Reads the scenario.
-    pub fn read(input: &Input) -> Result<Self, Fault> {
-        Source::of(read(input)?, input)
+    /// Reads the scenario; refuses options that its input does not need.
+    pub fn read(input: &Input) -> Result<Self, Failure> {
+        let read = read(input)?;
+        input.check_uses(&read.1)?;
+        Ok(Source::of(read, input)?)
     }
 
     fn of((loaded, origin, name): (Loaded, Origin, PathBuf), input: &Input) -> Result<Self, Fault> {

@@ -5,7 +5,7 @@ use super::pulse::{Job, TableSummary, warnings};
 use super::rows::plural;
 use super::source::{Input, Source};
 use super::written::Written;
-use super::{Failure, errors, print, print_json};
+use super::{Failure, json, print};
 use clap::Args;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
 use motion_rtl::files;
@@ -23,7 +23,7 @@ pub struct Arguments {
     /// Writes the table as CSV: unit, T, then half-period and direction of each axis.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Multiplies the half-periods by a ratio, as 3/2: the drawing becomes smaller by it.
+    /// Multiplies the half-periods by a ratio such as 3/2, which makes the drawing smaller.
     #[arg(long, value_name = "NUM/DEN", allow_hyphen_values = true)]
     scale: Option<String>,
     /// Prints the report as JSON.
@@ -33,7 +33,6 @@ pub struct Arguments {
 
 #[derive(Debug, Serialize)]
 struct Output<'a> {
-    version: u32,
     input: &'a str,
     clock_hz: u64,
     patterns: usize,
@@ -67,15 +66,13 @@ pub fn table(arguments: &Arguments) -> Result<(), Failure> {
         let directory = super::files::parent(path);
         super::files::clear(directory);
         let list = Written::read(directory);
-        let ours = list.free([path.as_path()].into_iter());
         let written = files::write(path, csv(table));
         let written = written.map_err(|error| super::files::refuse_file("--out", &error))?;
-        list.add(&ours);
+        list.add([path.as_path()].into_iter());
         files.push(Named::new(&written));
     }
     let scaling = scaled.as_ref().map(|scaled| &scaled.axes[..]);
     let output = Output {
-        version: errors::VERSION,
         input: &job.drawing.file,
         clock_hz: job.settings.clock_hz,
         patterns: table.patterns().len(),
@@ -85,7 +82,7 @@ pub fn table(arguments: &Arguments) -> Result<(), Failure> {
         files,
     };
     match arguments.json {
-        true => print_json(&output),
+        true => json::print(&output),
         false => {
             output
                 .warnings

@@ -156,7 +156,7 @@ impl<'a> Traces<'a> {
             let dump = format!("{stem}.{}", arguments.format.extension());
             let save =
                 gtkw::save_file_with(circuit, self.clock, options, &dump, window, focus.overview);
-            self.files.write("gtkw", &save.map_err(io::Error::from)?)?;
+            self.files.write_save(&save.map_err(io::Error::from)?)?;
         }
         if let Some(series) = self.series {
             self.files.push(series.finish()?);

@@ -43,7 +43,7 @@ pub struct Arguments {
     seed: u64,
 }
 
-/// Prints.
+/// Writes the circuit and, if requested, its testbench.
 pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
     let circuit = arguments.chosen.model()?;
     let verilog = circuit.verilog().map_err(|error| Failure::Argument {

@@ -32,6 +32,13 @@ pub struct Voice {
     color: Color,
 }
 
+/// Severity of a message.
+#[derive(Debug, Clone, Copy)]
+pub enum Level {
+    Error,
+    Warning,
+}
+
 static QUIET: AtomicBool = AtomicBool::new(false);
 static VERBOSE: AtomicBool = AtomicBool::new(false);
 static JSON: AtomicBool = AtomicBool::new(false);
@@ -86,6 +93,18 @@ pub fn color() -> ColorChoice {
         color if color == Color::Always as u8 => ColorChoice::Always,
         color if color == Color::Never as u8 => ColorChoice::Never,
         _ => ColorChoice::Auto,
+    }
+}
+
+/// Returns the beginning of a message on standard error, in a colour where errors are coloured.
+pub fn head(level: Level) -> String {
+    let (name, code) = match level {
+        Level::Error => ("error", "1;31"),
+        Level::Warning => ("warning", "1;33"),
+    };
+    match colors_errors() {
+        true => format!("\x1b[{code}m{name}:\x1b[0m "),
+        false => format!("{name}: "),
     }
 }
 

@@ -9,7 +9,7 @@ pub enum Format {
     /// Text that every waveform viewer reads.
     #[default]
     Vcd,
-    /// GTKWave's own, a fifth to a hundredth of the bytes.
+    /// GTKWave's format, which takes a fifth to a hundredth of the bytes.
     Fst,
 }
 

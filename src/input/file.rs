@@ -64,6 +64,37 @@ impl fmt::Display for Kind {
     }
 }
 
+/// Language of a drawing or a part program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Language {
+    /// HPGL.
+    Hpgl,
+    /// G-code.
+    Gcode,
+}
+
+impl Language {
+    /// Returns the language of a file by its extension in either case; `None` if it is of another
+    /// kind.
+    pub fn of(path: &Path) -> Option<Self> {
+        let extension = path.extension()?.to_str()?;
+        match extension.to_ascii_lowercase().as_str() {
+            "hpgl" | "hpg" | "plt" | "hgl" => Some(Language::Hpgl),
+            "ngc" | "gcode" | "nc" | "tap" | "gc" | "cnc" => Some(Language::Gcode),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Language {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Language::Hpgl => "an HPGL drawing",
+            Language::Gcode => "a G-code program",
+        })
+    }
+}
+
 /// Function that reads a text; its first argument is the name of the file.
 type Reader = fn(&str, &[u8], &Options) -> Result<Drawing, Fault>;
 
@@ -168,10 +199,13 @@ pub fn read_text_with(name: &str, text: &[u8], options: &Options) -> Result<Draw
 }
 
 fn reader(name: &str, path: &Path) -> Result<Reader, Fault> {
+    match Language::of(path) {
+        Some(Language::Hpgl) => return Ok(hpgl::read_with),
+        Some(Language::Gcode) => return Ok(gcode::read_with),
+        None => {}
+    }
     let extension = path.extension().and_then(|text| text.to_str());
-    let problem = match extension.map(str::to_ascii_lowercase).as_deref() {
-        Some("hpgl" | "hpg" | "plt" | "hgl") => return Ok(hpgl::read_with),
-        Some("ngc" | "gcode" | "nc" | "tap" | "gc" | "cnc") => return Ok(gcode::read_with),
+    let problem = match extension.map(str::to_ascii_lowercase) {
         Some(other) => format!("unknown extension .{other}"),
         None => "no extension".to_owned(),
     };

@@ -18,7 +18,7 @@ use fault::brief;
 pub use fault::{Excerpt, Fault, LISTED, MOST_FAULTS, SHOWN, shown};
 pub(crate) use file::size;
 pub use file::{
-    DRAWINGS, Kind, LARGEST_FILE, MORE_FILES, Options, POSITION_LOGS, Zeros, as_text,
+    DRAWINGS, Kind, LARGEST_FILE, Language, MORE_FILES, Options, POSITION_LOGS, Zeros, as_text,
     or_more_files, read_bytes, read_path, read_path_with, read_string, read_string_of, read_text,
     read_text_with,
 };

@@ -50,3 +50,50 @@ fn arcs_and_labels_are_run() {
     let summary = bench.json(&run(&[]));
     assert_eq!(summary["warnings"], serde_json::json!([]));
 }
+
+#[test]
+fn an_option_without_its_language_is_refused() {
+    let bench = Bench::with("l.hpgl", "PD40,0;");
+    bench.write("l.ngc", "G1 X1 F600\n");
+    bench.write("log.csv", "t_ms,counts\n0,0\n1,1\n");
+    bench.write("drawn.toml", "circuit = \"machine\"\ninput = \"l.ngc\"\n");
+    bench.write("bare.toml", "circuit = \"pulse_interpolator\"\n");
+    let hpgl = [&["--lenient"][..]];
+    let gcode = [
+        &["--strict"][..],
+        &["--most-lines", "9"],
+        &["--subroutines", "."],
+    ];
+    let inputs = [
+        (&["l.hpgl"][..], "an HPGL drawing"),
+        (&["l.ngc"], "a G-code program"),
+        (&["drawn.toml"], "a G-code program"),
+        (&["l.hpgl", "--input-format", "gcode"], "a G-code program"),
+        (&["log.csv"], "a position log"),
+        (&["bare.toml"], "no drawing"),
+        (&["waves/turntable.toml"], "no drawing"),
+        (&["waves/rosette.toml"], "an HPGL drawing"),
+        (&[], "a G-code program"),
+    ];
+    for (input, found) in inputs {
+        for (options, of) in [
+            (&hpgl[..], "an HPGL drawing"),
+            (&gcode[..], "a G-code program"),
+        ] {
+            for option in options.iter().filter(|_| of != found) {
+                let name = option[0];
+                let text = format!(
+                    "{name}: is for {of}; the input is {found}; allowed: {of}, or a run without \
+                     {name}"
+                );
+                bench.refuse(&[&["run", "--no-vcd"], input, option].concat(), &text);
+            }
+        }
+    }
+    for value in ["0", "-1"] {
+        bench.refuse_with(&["run", "l.ngc", "--most-lines", value], |said| {
+            let text = format!("error: invalid value '{value}' for '--most-lines <LINES>'");
+            assert!(said.starts_with(&text), "{said}");
+        });
+    }
+}

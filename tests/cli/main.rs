@@ -10,6 +10,7 @@ mod arc_refusals;
 mod beside;
 mod check_parts;
 mod checks;
+mod colors;
 #[cfg(unix)]
 mod commands;
 mod compare;
@@ -58,4 +59,7 @@ mod tables;
 mod trajectory;
 mod trajectory_refusals;
 mod verilog;
+#[cfg(unix)]
+mod viewer;
 mod waves_of;
+mod written;

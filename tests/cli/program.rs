@@ -162,27 +162,6 @@ fn verbose_tells_the_stages_on_standard_error() {
 }
 
 #[test]
-fn colours_are_as_asked_for() {
-    let bench = Bench::with("s.toml", "circuit = \"lead_angle\"\nwhat = 1\n");
-    for (color, coloured) in [("auto", false), ("never", false), ("always", true)] {
-        let done = bench.run(&["run", "s.toml", "--color", color]);
-        assert_eq!(
-            done.stderr.contains("\x1b["),
-            coloured,
-            "{color}: {}",
-            done.stderr
-        );
-        let help = bench.run(&[&format!("--color={color}"), "--help"]);
-        assert_eq!(
-            help.stdout.contains("\x1b["),
-            coloured,
-            "{color}: {}",
-            help.stdout
-        );
-    }
-}
-
-#[test]
 fn an_error_is_json_too_where_json_is_asked_for() {
     let scenario = "circuit = \"lead_angle\"\nstep = []\nwhat = 1\n";
     let bench = Bench::with("s.toml", scenario);
@@ -374,54 +353,6 @@ fn clean_removes_what_runs_have_made_and_nothing_else() {
         &["clean", "nowhere"],
         "DIR: nowhere is not a directory; allowed: the --out of a run",
     );
-}
-
-#[cfg(unix)]
-#[test]
-fn open_starts_a_viewer_with_the_save_file() {
-    use std::os::unix::fs::PermissionsExt as _;
-    let bench = Bench::with("line.hpgl", LINE);
-    let viewer = "#!/bin/sh\necho \"$@\" >opened.part && mv opened.part opened\n";
-    bench.write("bin/gtkwave", viewer);
-    fs::set_permissions(bench.path("bin/gtkwave"), fs::Permissions::from_mode(0o755)).unwrap();
-    let run = [&["line.hpgl", "--open", "--to", "100"], &SHORT[..]].concat();
-    let path = |directory: &str| format!("{}:/bin:/usr/bin", bench.path(directory).display());
-    bench
-        .command(&run)
-        .env("PATH", path("bin"))
-        .env("DISPLAY", ":0")
-        .assert()
-        .success();
-    for _ in 0..1000 {
-        if bench.path("opened").exists() {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(10));
-    }
-    assert_eq!(bench.read("opened"), "waves/line.gtkw\n");
-
-    let bench = Bench::with("line.hpgl", LINE);
-    let output = bench
-        .command(&run)
-        .env("PATH", bench.path("none"))
-        .env("DISPLAY", ":0")
-        .output()
-        .unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    let text = "error: --open: no viewer of waves in PATH; allowed: gtkwave or surfer\n";
-    assert_eq!((output.status.code(), said.as_str()), (Some(2), text));
-    assert_eq!(bench.names(), ["line.hpgl"]);
-
-    #[cfg(target_os = "linux")]
-    {
-        let mut command = bench.command(&run);
-        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
-        let output = command.output().unwrap();
-        let said = String::from_utf8(output.stderr).unwrap();
-        let text = "error: --open: there is no display: neither ";
-        assert!(said.starts_with(text), "{said}");
-        assert_eq!(output.status.code(), Some(2));
-    }
 }
 
 /// The list of what runs have written may come from anywhere.

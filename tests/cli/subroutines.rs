@@ -72,6 +72,7 @@ fn what_is_wrong_with_subroutines_is_refused() {
     bench.write("l.hpgl", "PD400,0;");
     bench.refuse(
         &["run", "l.hpgl", "--subroutines", "subs"],
-        "l.hpgl: subroutines: a drawing in HPGL calls none; allowed: them with G-code only",
+        "--subroutines: is for a G-code program; the input is an HPGL drawing; allowed: a G-code \
+         program, or a run without --subroutines",
     );
 }
