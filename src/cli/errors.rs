@@ -6,15 +6,6 @@ use motion_rtl::input::Fault;
 use motion_rtl::sim::RunError;
 use serde::Serialize;
 use std::io::{Write as _, stderr, stdout};
-use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
-
-/// True once a result was printed as JSON: it has what is wrong in it.
-static PRINTED: AtomicBool = AtomicBool::new(false);
-
-/// Notes that standard output has its JSON.
-pub fn is_printed() {
-    PRINTED.store(true, Relaxed);
-}
 
 /// An error as JSON.
 #[derive(Debug, Serialize)]
@@ -153,7 +144,7 @@ pub fn usage(error: &clap::Error) {
 }
 
 fn print(error: Error<'_>) {
-    if !voice::wants_json() || PRINTED.load(Relaxed) {
+    if !voice::wants_json() || json::is_printed() {
         return;
     }
     let output = Output {

@@ -1,12 +1,21 @@
 //! Results as JSON.
 
-use super::{Failure, errors, to_standard_output};
+use super::{Failure, to_standard_output};
 use serde::Serialize;
 use std::io;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// Version of the keys of everything that is printed as JSON; it grows when a key goes or changes
 /// its meaning.
 pub const VERSION: u32 = 1;
+
+/// True once a result was printed: it has what is wrong in it.
+static PRINTED: AtomicBool = AtomicBool::new(false);
+
+/// True if standard output has its JSON.
+pub fn is_printed() -> bool {
+    PRINTED.load(Relaxed)
+}
 
 /// A value with the version of its keys.
 #[derive(Debug, Serialize)]
@@ -25,6 +34,6 @@ pub fn print(value: &impl Serialize) -> Result<(), Failure> {
 /// Prints a value that has a version of its own or needs none.
 pub fn print_alone(value: &impl Serialize) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(value).map_err(io::Error::from)?;
-    errors::is_printed();
+    PRINTED.store(true, Relaxed);
     to_standard_output(&(text + "\n"))
 }
