@@ -5,6 +5,7 @@ use super::{Failure, json, plain};
 use motion_rtl::input::Fault;
 use motion_rtl::sim::RunError;
 use serde::Serialize;
+use std::borrow::Cow;
 use std::io::{Write as _, stderr, stdout};
 
 /// An error as JSON.
@@ -131,9 +132,9 @@ pub fn usage(error: &clap::Error) {
     let text = error.to_string();
     let message = text.strip_prefix("error: ").unwrap_or(&text);
     // If standard error is closed, only the exit code remains.
-    let _ = match std::env::args().any(|word| word.contains(char::is_control)) {
-        true => write!(stderr(), "{}{}", voice::head(Level::Error), plain(message)),
-        false => error.print(),
+    let _ = match plain(message) {
+        Cow::Owned(message) => write!(stderr(), "{}{message}", voice::head(Level::Error)),
+        Cow::Borrowed(_) => error.print(),
     };
     let message = message.split("\n\n").next().unwrap_or(message);
     print(Error {
