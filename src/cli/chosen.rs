@@ -5,7 +5,6 @@ use clap::Args;
 use motion_rtl::nearest::did_you_mean;
 use motion_rtl::registry::{AnyModel, Base, CATALOGUE, Entry, Pair, Refused, find};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
 use std::fmt;
 
 /// Changed keys of a circuit.
@@ -34,6 +33,9 @@ pub struct Chosen {
     changes: Changes,
 }
 
+/// Names of circuits, for errors.
+pub const CIRCUITS: &str = "a name of a circuit; `motion-rtl list` shows all";
+
 /// Returns the circuit with that name.
 pub fn entry(name: &str) -> Result<&'static Entry, Failure> {
     find(name).ok_or_else(|| {
@@ -42,7 +44,7 @@ pub fn entry(name: &str) -> Result<&'static Entry, Failure> {
         Failure::Argument {
             field: "CIRCUIT",
             problem: format!("there is no {name}{near}"),
-            allowed: names().collect::<Vec<_>>().join(", "),
+            allowed: CIRCUITS.into(),
         }
     })
 }
@@ -66,8 +68,10 @@ pub fn entries(names: &[String]) -> Result<Vec<&'static Entry>, Failure> {
 pub fn no_circuit(changes: &Changes, command: &str) -> Failure {
     Failure::Argument {
         field: "CIRCUIT",
-        problem: format!("none, with{changes}"),
-        allowed: format!("a circuit that has the key, {command} comparator --set comparing=equal"),
+        problem: format!("missing beside{changes}"),
+        allowed: format!(
+            "the circuit whose key it is, as in `{command} comparator --set comparing=equal`"
+        ),
     }
 }
 
@@ -81,12 +85,17 @@ pub fn refused(entry: &Entry, refused: Refused) -> Failure {
                 true => problem.clone(),
                 false => format!("{}: {problem}", entry.name),
             },
-            allowed: "values that go together".to_owned(),
+            allowed: format!(
+                "values with which the circuit elaborates; `motion-rtl keys {}` lists their ranges",
+                entry.name
+            ),
         },
         _ => Failure::Argument {
             field: "CIRCUIT",
             problem: format!("{}: {refused}", entry.name),
-            allowed: "its blocks".to_owned(),
+            allowed:
+                "a circuit that `motion-rtl list` shows as proved or swept, such as its blocks"
+                    .to_owned(),
         },
     }
 }
@@ -113,7 +122,8 @@ impl Changes {
             });
         }
         let mut pairs = Vec::new();
-        if let Some(bits) = self.width.first() {
+        // Of several the last counts, as of a key.
+        if let Some(bits) = self.width.last() {
             pairs.push(self.one_width(entry, bits)?);
         }
         for text in &self.set {
@@ -122,14 +132,6 @@ impl Changes {
                 problem: format!("{text:?} gives no key a value"),
                 allowed: format!("KEY=VALUE, {new}"),
             })?);
-        }
-        let mut keys = BTreeSet::new();
-        if let Some(twice) = pairs.iter().find(|pair| !keys.insert(pair.key.clone())) {
-            return Err(Failure::Argument {
-                field: "--set",
-                problem: format!("{} is given twice", twice.key),
-                allowed: "one value of a key".to_owned(),
-            });
         }
         Ok(pairs)
     }
@@ -141,10 +143,6 @@ impl Changes {
             problem,
             allowed,
         };
-        if let [_, other, ..] = &self.width[..] {
-            let problem = format!("is {bits} and {other}");
-            return Err(refuse(problem, "one width".to_owned()));
-        }
         let widths = entry.widths(Base::Full, &[]);
         if let Some((key, bits)) = bits.split_once('=') {
             let named = widths

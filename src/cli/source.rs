@@ -7,11 +7,13 @@ use clap::{Args, value_parser};
 use motion_rtl::input::position_log::{self, Columns, PositionLog};
 use motion_rtl::input::{Drawing, Fault, Kind, Language, Options, read_path_with};
 use motion_rtl::jobs::pulse_interpolator::Table;
-use motion_rtl::jobs::pulse_interpolator::table::read;
+use motion_rtl::jobs::pulse_interpolator::table::read::{self, is_header};
 use motion_rtl::nearest::nearest;
 use motion_rtl::plan::{FEED_RANGE, PlanError};
 use motion_rtl::scenario::{Loaded, Runnable, Scenario};
 use motion_rtl::settings::{Place, SettingError, tidy};
+use std::fs::File;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 /// Arguments that name the scenario and its input.
@@ -342,6 +344,7 @@ fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {
                 (loaded, within.map_or(Origin::Nowhere, Origin::File))
             }
             format => {
+                no_table(&given.name, &given.bytes)?;
                 let loaded = Loaded::bare_of(&given.name, format.kind(), &input.sets)?;
                 (loaded, Origin::Given(given))
             }
@@ -358,6 +361,12 @@ fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {
         let given = loaded.scenario.input().cloned();
         (loaded, given.map_or(Origin::Nowhere, Origin::File))
     } else {
+        let mut first = Vec::new();
+        // The reader of the input says if it cannot be read.
+        if let Ok(file) = File::open(path) {
+            let _ = file.take(LONGEST_HEADER).read_to_end(&mut first);
+        }
+        no_table(&path.display().to_string(), &first)?;
         let loaded = Loaded::bare(path, &input.sets)?;
         (loaded, Origin::File(path.to_owned()))
     };
@@ -366,6 +375,22 @@ fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {
         return Err(loaded.fault("vcd_ticks", "is 0".to_owned(), allowed));
     }
     Ok((loaded, origin, name))
+}
+
+/// Bytes in which the header of a table of the pulse interpolator ends.
+const LONGEST_HEADER: u64 = 4096;
+
+/// Refuses a table of the pulse interpolator, which would be read as a position log.
+fn no_table(name: &str, bytes: &[u8]) -> Result<(), Fault> {
+    let first = bytes.split(|&byte| byte == b'\n').next().unwrap_or(bytes);
+    let header = std::str::from_utf8(first).unwrap_or_default();
+    if !is_header(header) {
+        return Ok(());
+    }
+    let problem = "is a table of half-periods, the memory of a pulse interpolator";
+    let allowed = "a scenario that names it, [[pattern]] with table = FILE as in waves/patterns.toml; \
+                   a drawing, a part program or a position log";
+    Err(Fault::new(name, 1, "header", problem, allowed))
 }
 
 /// A fault of a scenario that is not there, with the shipped one that its name resembles.

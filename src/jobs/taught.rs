@@ -1,12 +1,18 @@
 //! Paths that a scenario teaches by points: its tables `[[piece]]`.
 
 use crate::input::Point;
+use crate::jobs::arc_generator::settings::SPEED_RANGE_MM_PER_MIN;
 use crate::path::pieces::Taught;
-use crate::settings::{Place, SettingError, Shape, Value, settings};
+use crate::plan::CENTRE_REACH_MM;
+use crate::settings::{Place, SettingError, Shape, Value, Within, settings};
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 use serde::{Serialize, Serializer};
 use std::fmt;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
+
+/// Coordinates of taught points that are accepted, in mm.
+pub const REACH_RANGE_MM: RangeInclusive<f64> = -CENTRE_REACH_MM..=CENTRE_REACH_MM;
 
 /// X, Y and Z of a point in mm, and W where there is a fourth axis.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -33,6 +39,30 @@ impl Coordinates {
         };
         let problem = format!("is a list of {given}");
         Err(SettingError::new(field, problem, allowed))
+    }
+}
+
+impl Within<f64> for Coordinates {
+    fn check(
+        &self,
+        field: &'static str,
+        allowed: &RangeInclusive<f64>,
+    ) -> Result<(), SettingError> {
+        let [x, y, z] = self.point;
+        match self.w {
+            Some(w) => [x, y, z, w].check(field, allowed),
+            None => self.point.check(field, allowed),
+        }
+    }
+}
+
+impl Within<f64> for Option<Coordinates> {
+    fn check(
+        &self,
+        field: &'static str,
+        allowed: &RangeInclusive<f64>,
+    ) -> Result<(), SettingError> {
+        self.map_or(Ok(()), |point| Within::check(&point, field, allowed))
     }
 }
 
@@ -85,13 +115,13 @@ settings! {
     #[derive(Copy)]
     pub struct TaughtPiece {
         /// End of the piece; with W where there are four axes.
-        pub to_mm [required]: Coordinates = Coordinates::default();
+        pub to_mm [required]: Coordinates = Coordinates::default(), in REACH_RANGE_MM;
         /// Point of the arc; without it the piece is a line or a spline.
-        pub via_mm: Option<Point> = None;
+        pub via_mm: Option<Point> = None, in REACH_RANGE_MM;
         /// True for a spline: one curve through the ends of all such pieces in a row.
         pub spline: bool = false;
         /// Speed of the piece; without it that of the scenario.
-        pub feed_mm_per_min: Option<f64> = None, "above 0";
+        pub feed_mm_per_min: Option<f64> = None, in SPEED_RANGE_MM_PER_MIN;
     }
 }
 
@@ -99,7 +129,7 @@ settings! {
 ///
 /// # Errors
 /// There are pieces, and a drawing too; an end without W where there are four axes, or with it where
-/// there are not; a spline through a point via.
+/// there are not; a spline through a point via; a number out of its range.
 pub fn taught(
     input: Option<&PathBuf>,
     pieces: &[TaughtPiece],
@@ -114,6 +144,12 @@ pub fn taught(
     }
     let taught = |(row, piece): (usize, &TaughtPiece)| {
         let at = |error: SettingError| error.at(Place::Row("piece", row));
+        piece.ranges().map_err(|mut error| {
+            if let Some(Place::Element(axis)) = error.place {
+                error.problem += &format!(" for {axis}");
+            }
+            at(error)
+        })?;
         piece.to_mm.check("to_mm", fourth).map_err(at)?;
         if piece.spline && piece.via_mm.is_some() {
             let error = SettingError::new("spline", "given beside via_mm", "an arc or a spline");

@@ -50,7 +50,7 @@ pub use axis::ServoAxis;
 pub use brake::{BodyParameters, BrakedBody, Load};
 pub use encoder::Encoder;
 pub use operation::Operation;
-pub use parameters::ServoParameters;
+pub use parameters::{MOST_TORQUE_NM, ServoParameters};
 pub use phase_shift::PhaseShiftTransducer;
 pub use resolver::{POLE_PAIRS_RANGE, Resolver, ResolverParameters, WINDING_RANGE};
 pub use servo::{Motor, ServoDriver};

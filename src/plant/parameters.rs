@@ -7,6 +7,9 @@ use std::ops::RangeInclusive;
 /// Allowed range of positive quantities.
 pub(super) const POSITIVE: RangeInclusive<f64> = 1e-9..=1e9;
 
+/// Greatest torque, in N·m: the waves hold it in mN·m in 32 bits.
+pub const MOST_TORQUE_NM: f64 = 2_147_483.0;
+
 /// Parameters of servo driver, motor, load and encoder of one axis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

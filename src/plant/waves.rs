@@ -48,11 +48,10 @@ impl Signals<Value> {
 
 impl AxisSignals<Value> {
     fn of(axis: &ServoAxis) -> Self {
-        // A cast to an integer saturates.
         AxisSignals {
             position: fine(axis.position_counts()),
-            speed: axis.speed_counts_per_s().round() as i64,
-            torque: (axis.torque_nm() * 1e3).round() as i64,
+            speed: whole(axis.speed_counts_per_s()),
+            torque: whole(axis.torque_nm() * 1e3),
         }
     }
 }
@@ -86,9 +85,9 @@ impl BodySignals<Value> {
     pub fn of(body: &BrakedBody) -> Self {
         BodySignals {
             position: fine(body.position_counts()),
-            speed: body.speed_counts_per_s().round() as i64,
+            speed: whole(body.speed_counts_per_s()),
             engaged: body.engaged(),
-            friction: (body.friction_nm() * 1e3).round() as i64,
+            friction: whole(body.friction_nm() * 1e3),
         }
     }
 
@@ -96,7 +95,7 @@ impl BodySignals<Value> {
     pub fn at(position: f64, speed: f64) -> Self {
         BodySignals {
             position: fine(position),
-            speed: speed.round() as i64,
+            speed: whole(speed),
             engaged: false,
             friction: 0,
         }
@@ -153,12 +152,17 @@ impl TwoMassSignals<Value> {
     pub fn of(axis: &TwoMassAxis) -> Self {
         TwoMassSignals {
             position: fine(axis.position_counts()),
-            speed: axis.speed_counts_per_s().round() as i64,
+            speed: whole(axis.speed_counts_per_s()),
             load_position: fine(axis.load_position_counts()),
-            twist: (axis.twist_rad() * 1e6).round() as i64,
-            torque: (axis.torque_nm() * 1e3).round() as i64,
+            twist: whole(axis.twist_rad() * 1e6),
+            torque: whole(axis.torque_nm() * 1e3),
         }
     }
+}
+
+/// Rounds to a word of 32 bits; what is beyond is its least or greatest.
+fn whole(value: f64) -> i64 {
+    i64::from(value.round() as i32)
 }
 
 /// Converts a position to 1/256 of a count.

@@ -2,6 +2,7 @@
 
 use super::entry::{Base, Entry, Made};
 use super::reader::{Kind, Kinds, Misread};
+use super::{listed, ranges};
 use crate::engine::EngineError;
 use crate::nearest::{self, nearest};
 use crate::netlist::Wrong;
@@ -10,7 +11,7 @@ use crate::sim::Elaborated;
 use toml::{Table, Value};
 
 /// The largest width, or number of stages, axes and the like.
-const MOST: i64 = 1 << 12;
+pub(super) const MOST: i64 = 1 << 12;
 
 /// Sizes that count something else than the bits of a word.
 const COUNTS: &[&str] = &[
@@ -25,7 +26,7 @@ const COUNTS: &[&str] = &[
 ];
 
 /// A value that no key takes.
-const NO_VALUE: &str = "?";
+pub(super) const NO_VALUE: &str = "?";
 
 /// A key of a circuit with its values.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
@@ -39,11 +40,13 @@ pub struct Key {
     pub small: Option<String>,
     /// Type, in words.
     #[serde(rename = "type")]
-    pub kind: &'static str,
+    pub kind: String,
     /// `bits` of a width, or nothing.
     pub unit: &'static str,
     /// Least and largest value, or the names.
     pub range: String,
+    /// Meaning.
+    pub about: String,
 }
 
 /// A pair that a circuit does not take.
@@ -82,17 +85,37 @@ fn lines(wrong: &[WrongPair]) -> String {
 pub(super) fn made(entry: &Entry, base: Base, pairs: &[Pair]) -> Result<Made, Refused> {
     let made = read_pairs(entry, base, pairs)?;
     if !pairs.is_empty() {
-        elaborate(&made)?;
+        elaborate_pairs(entry, &made, pairs)?;
     }
     Ok(made)
 }
 
 /// A circuit with some keys changed, elaborated.
 pub(super) fn elaborated(entry: &Entry, base: Base, pairs: &[Pair]) -> Result<Elaborated, Refused> {
-    elaborate(&read_pairs(entry, base, pairs)?)
+    elaborate_pairs(entry, &read_pairs(entry, base, pairs)?, pairs)
 }
 
-fn elaborate(made: &Made) -> Result<Elaborated, Refused> {
+/// Elaborates a circuit; a size out of its range is the reason why that fails.
+fn elaborate_pairs(entry: &Entry, made: &Made, pairs: &[Pair]) -> Result<Elaborated, Refused> {
+    let outside = |pair: &Pair| {
+        let number = value(&pair.value).as_integer()?;
+        let (least, most) = ranges::of(entry.name, &pair.key)?;
+        (!(least..=most).contains(&number)).then(|| WrongPair {
+            pair: pair.clone(),
+            problem: format!("is {number}"),
+            allowed: format!("{least} to {most}"),
+        })
+    };
+    elaborate(made).map_err(|error| {
+        let wrong: Vec<_> = pairs.iter().filter_map(outside).collect();
+        match wrong.is_empty() {
+            true => error,
+            false => Refused::Pairs(wrong),
+        }
+    })
+}
+
+pub(super) fn elaborate(made: &Made) -> Result<Elaborated, Refused> {
     let elaborated = made.model.model();
     elaborated.map_err(|error| Refused::Values(without_sites(&error)))
 }
@@ -103,14 +126,20 @@ fn read_pairs(entry: &Entry, base: Base, pairs: &[Pair]) -> Result<Made, Refused
         return Ok(entry.maker.value(base));
     }
     let table = table(entry, base);
-    let all = pairs.iter().fold(table.clone(), changed);
+    let all = changed_by(entry, table.clone(), pairs);
     let read = read(entry, &all);
-    // Each by itself, so that all that is wrong is found.
-    let wrong = pairs.iter().filter_map(|pair| match &read {
-        Ok(_) if is_lost(entry, &table, pair) => Some(unknown(entry, &table, pair)),
-        Ok(_) => too_large(entry, &all, pair),
-        Err(_) => wrong(entry, &table, pair),
-    });
+    // Each by itself, so that all that is wrong is found; of two values of a key the later counts.
+    let wrong = pairs
+        .iter()
+        .enumerate()
+        .filter_map(|(at, pair)| match &read {
+            Ok(_) if is_lost(entry, &table, pair) => Some(unknown(entry, &table, pair)),
+            Ok(_) if pairs[at + 1..].iter().any(|later| later.key == pair.key) => {
+                wrong(entry, &table, pair)
+            }
+            Ok(_) => too_large(entry, &all, pair),
+            Err(_) => wrong(entry, &table, pair),
+        });
     let wrong: Vec<_> = wrong.collect();
     match read {
         _ if !wrong.is_empty() => Err(Refused::Pairs(wrong)),
@@ -142,45 +171,44 @@ fn without_sites(error: &EngineError) -> String {
     }
 }
 
-/// All keys of a circuit, by name.
+/// All keys of a circuit, by name: also those of names that it does not have at present.
 pub(super) fn all(entry: &Entry) -> Vec<Key> {
     let [full, small] = [Base::Full, Base::Small].map(|base| table(entry, base));
-    let names = names(entry, &full).into_iter().map(|name| {
-        let kind = kind(entry, &full, &name).or_else(|| kind(entry, &small, &name));
-        let (kind, unit, range) = shown(&name, kind);
-        Key {
-            full: leaf(&full, &name).map(text),
-            small: leaf(&small, &name).map(text),
-            kind,
-            unit,
-            range,
-            name,
+    let mut found = listed::keys(entry, &full);
+    for key in listed::keys(entry, &small) {
+        if !found.iter().any(|other| other.name == key.name) {
+            found.push(key);
         }
-    });
-    names.collect()
-}
-
-/// Returns type, unit and range of a key in words.
-fn shown(key: &str, kind: Option<Kind>) -> (&'static str, &'static str, String) {
-    let bits = match is_width(key) {
-        true => "bits",
-        false => "",
-    };
-    match kind {
-        Some(Kind::Size) => ("whole number", bits, format!("0 to {MOST}")),
-        Some(Kind::Whole) => ("whole number", "", "from 0".to_owned()),
-        Some(Kind::Signed) => ("whole number", "", String::new()),
-        Some(Kind::Flag) => ("true or false", "", String::new()),
-        Some(Kind::Name(names)) => ("name", "", names.join(", ")),
-        Some(Kind::Table(keys)) => ("table", "", keys.join(", ")),
-        Some(Kind::List) => ("list", "", String::new()),
-        None => ("value", "", String::new()),
     }
+    found.retain(|key| !entry.is_idle(&key.name));
+    found.sort_by(|a, b| a.name.cmp(&b.name));
+    let is_unset = |name: &str| {
+        [&full, &small]
+            .iter()
+            .all(|table| leaf(table, name).is_none())
+    };
+    let keys = found.into_iter().map(|key| Key {
+        full: leaf(&full, &key.name).map(|value| shown(key.of, value)),
+        small: leaf(&small, &key.name).map(|value| shown(key.of, value)),
+        range: match key.of {
+            // Of a name that neither circuit has: no circuit was elaborated with it.
+            Kind::Size if is_unset(&key.name) => String::new(),
+            _ => key.range(entry),
+        },
+        kind: key.kind,
+        unit: match key.of {
+            Kind::Size if is_width(&key.name) => "bits",
+            _ => "",
+        },
+        about: key.about,
+        name: key.name,
+    });
+    keys.collect()
 }
 
 /// The keys of widths and other sizes.
 pub(super) fn sizes(entry: &Entry, base: Base, pairs: &[Pair]) -> Vec<(String, u64)> {
-    let table = pairs.iter().fold(table(entry, base), changed);
+    let table = changed_by(entry, table(entry, base), pairs);
     let kinds = kinds(entry, &table);
     let sizes = names(entry, &table).into_iter().filter_map(|name| {
         let size = leaf(&table, &name)?.as_integer()?;
@@ -195,16 +223,16 @@ pub(super) fn is_width(key: &str) -> bool {
 }
 
 /// The table of a circuit's keys. Circuits are plain data: there is one.
-fn table(entry: &Entry, base: Base) -> Table {
+pub(super) fn table(entry: &Entry, base: Base) -> Table {
     entry.maker.table(base).unwrap_or_default()
 }
 
-fn read(entry: &Entry, table: &Table) -> Result<Made, Misread> {
+pub(super) fn read(entry: &Entry, table: &Table) -> Result<Made, Misread> {
     entry.maker.read(table, &Kinds::default())
 }
 
 /// Kinds of the keys of a table, up to the first that is misread.
-fn kinds(entry: &Entry, table: &Table) -> Vec<(String, Kind)> {
+pub(super) fn kinds(entry: &Entry, table: &Table) -> Vec<(String, Kind)> {
     let kinds = Kinds::default();
     // A key that is misread has its kind too.
     let _ = entry.maker.read(table, &kinds);
@@ -212,34 +240,69 @@ fn kinds(entry: &Entry, table: &Table) -> Vec<(String, Kind)> {
 }
 
 /// Kind of a key, set or not.
-fn kind(entry: &Entry, table: &Table, key: &str) -> Option<Kind> {
+pub(super) fn kind(entry: &Entry, table: &Table, key: &str) -> Option<Kind> {
     let find = |kinds: &[(String, Kind)]| {
         let found = kinds.iter().find(|(name, _)| name == key);
         found.map(|(_, kind)| *kind)
     };
-    let unset = || changed(table.clone(), &Pair::new(key, NO_VALUE));
+    let unset = || changed(entry, table.clone(), &Pair::new(key, NO_VALUE));
     find(&kinds(entry, table)).or_else(|| find(&kinds(entry, &unset())))
 }
 
-/// Returns the table with a pair's value; unchanged if a key on the way has no keys inside.
-fn changed(mut table: Table, pair: &Pair) -> Table {
-    fn put(table: &mut Table, key: &str, value: Value) {
-        match key.split_once('.') {
-            None => drop(table.insert(key.to_owned(), value)),
-            Some((head, rest)) => {
-                let inner = table.entry(head).or_insert_with(|| Table::new().into());
-                if let Value::Table(inner) = inner {
-                    put(inner, rest, value);
-                }
-            }
-        }
-    }
-    put(&mut table, &pair.key, value(&pair.value));
+/// Returns the table with the values of some pairs, one after the other.
+fn changed_by(entry: &Entry, table: Table, pairs: &[Pair]) -> Table {
+    let change = |table, pair: &Pair| changed(entry, table, pair);
+    pairs.iter().fold(table, change)
+}
+
+/// Returns the table with a pair's value; unchanged if a key on the way has no keys inside. A table
+/// keeps the keys that the value does not give, but another name has keys of its own.
+pub(super) fn changed(entry: &Entry, mut table: Table, pair: &Pair) -> Table {
+    let kinds = kinds(entry, &table);
+    let value = value(&pair.value);
+    Change { kinds: &kinds }.put(&mut table, "", &pair.key, value);
     table
 }
 
+/// A change of a table whose keys have these kinds.
+struct Change<'a> {
+    kinds: &'a [(String, Kind)],
+}
+
+impl Change<'_> {
+    fn put(&self, table: &mut Table, before: &str, key: &str, value: Value) {
+        let (head, rest) = key.split_once('.').unwrap_or((key, ""));
+        let path = format!("{before}{head}");
+        let is_name =
+            |(name, kind): &(String, Kind)| *name == path && matches!(kind, Kind::Name(_));
+        let value = match (rest, value) {
+            ("", value) => value,
+            (rest, value) => {
+                let mut inner = Value::Table(Table::new());
+                if let Some(table) = inner.as_table_mut() {
+                    Change { kinds: &[] }.put(table, "", rest, value);
+                }
+                inner
+            }
+        };
+        let named = self.kinds.iter().any(is_name);
+        match (table.get_mut(head), value) {
+            (Some(Value::Table(own)), Value::Table(new))
+                if !named || new.keys().all(|name| own.contains_key(name)) =>
+            {
+                for (name, value) in new {
+                    self.put(own, &format!("{path}."), &name, value);
+                }
+            }
+            // Nothing is inside a number or a list.
+            (Some(own), Value::Table(_)) if !own.is_table() && !named && !rest.is_empty() => {}
+            (_, value) => drop(table.insert(head.to_owned(), value)),
+        }
+    }
+}
+
 /// The value of a dotted key.
-fn leaf<'t>(table: &'t Table, key: &str) -> Option<&'t Value> {
+pub(super) fn leaf<'t>(table: &'t Table, key: &str) -> Option<&'t Value> {
     match key.split_once('.') {
         None => table.get(key),
         Some((head, rest)) => leaf(table.get(head)?.as_table()?, rest),
@@ -261,7 +324,7 @@ fn names(entry: &Entry, table: &Table) -> Vec<String> {
     let top = kinds(entry, table)
         .into_iter()
         .find_map(|(_, kind)| match kind {
-            Kind::Table(keys) => Some(keys),
+            Kind::Table(_, keys) => Some(keys),
             _ => None,
         });
     let unset = top.into_iter().flatten();
@@ -280,7 +343,7 @@ fn is_size(kinds: &[(String, Kind)], key: &str) -> bool {
 
 /// True for a key that changes nothing.
 fn is_lost(entry: &Entry, table: &Table, pair: &Pair) -> bool {
-    entry.is_idle(&pair.key) || leaf(&changed(table.clone(), pair), &pair.key).is_none()
+    entry.is_idle(&pair.key) || leaf(&changed(entry, table.clone(), pair), &pair.key).is_none()
 }
 
 /// Refuses an unknown key.
@@ -322,10 +385,13 @@ fn too_large(entry: &Entry, table: &Table, pair: &Pair) -> Option<WrongPair> {
         let number = leaf(table, name).and_then(Value::as_integer);
         inside && number.is_some_and(|number| number > MOST) && is_size(&kinds, name)
     });
-    sizes.next().map(|_| WrongPair {
-        pair: pair.clone(),
-        problem: format!("is {}", pair.value),
-        allowed: format!("0 to {MOST}"),
+    sizes.next().map(|name| {
+        let (least, most) = ranges::of(entry.name, &name).unwrap_or((0, MOST));
+        WrongPair {
+            pair: pair.clone(),
+            problem: format!("is {}", pair.value),
+            allowed: format!("{least} to {most}"),
+        }
     })
 }
 
@@ -334,7 +400,7 @@ fn wrong(entry: &Entry, table: &Table, pair: &Pair) -> Option<WrongPair> {
     if is_lost(entry, table, pair) {
         return Some(unknown(entry, table, pair));
     }
-    let error = read(entry, &changed(table.clone(), pair)).err()?;
+    let error = read(entry, &changed(entry, table.clone(), pair)).err()?;
     if error.unknown && pair.key.starts_with(&error.key) {
         return Some(unknown(entry, table, pair));
     }
@@ -348,6 +414,14 @@ fn wrong(entry: &Entry, table: &Table, pair: &Pair) -> Option<WrongPair> {
         pair: pair.clone(),
         allowed: error.allowed,
     })
+}
+
+/// Formats the value of a key; of a name with keys inside, which are listed by themselves, the name.
+fn shown(of: Kind, value: &Value) -> String {
+    match (of, value.as_table().and_then(|table| table.keys().next())) {
+        (Kind::Name(_), Some(name)) => name.clone(),
+        _ => text(value),
+    }
 }
 
 /// Formats a value as in a pair.

@@ -21,9 +21,11 @@ mod campaign;
 mod circuits;
 mod entry;
 mod keys;
+mod listed;
 mod model;
 #[cfg(test)]
 mod ports_out;
+mod ranges;
 mod reader;
 mod running;
 mod scaled;

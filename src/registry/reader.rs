@@ -19,8 +19,8 @@ pub(super) enum Kind {
     /// One of these names; some have keys of their own.
     Name(&'static [&'static str]),
     List,
-    /// Table with these keys.
-    Table(&'static [&'static str]),
+    /// Table of a struct with this name and these keys.
+    Table(&'static str, &'static [&'static str]),
 }
 
 impl fmt::Display for Kind {
@@ -30,7 +30,7 @@ impl fmt::Display for Kind {
             Kind::Signed => f.write_str("a whole number"),
             Kind::Flag => f.write_str("true or false"),
             Kind::List => f.write_str("a list, [1, 2]"),
-            Kind::Table(_) => f.write_str("a table, {key = value}"),
+            Kind::Table(..) => f.write_str("a table, {key = value}"),
             Kind::Name(names) => {
                 let (last, others) = names.split_last().unwrap_or((&"", &[]));
                 for (number, name) in others.iter().enumerate() {
@@ -194,10 +194,11 @@ impl<'a> Reader<'a> {
 
     fn fields<'de, V: Visitor<'de>>(
         self,
+        of: &'static str,
         fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Misread> {
-        let kind = Kind::Table(fields);
+        let kind = Kind::Table(of, fields);
         self.is(kind);
         match self.value {
             Value::Table(table) => {
@@ -282,16 +283,16 @@ impl<'de> Deserializer<'de> for Reader<'_> {
 
     fn deserialize_struct<V: Visitor<'de>>(
         self,
-        _: &'static str,
+        of: &'static str,
         fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Misread> {
-        self.fields(fields, visitor)
+        self.fields(of, fields, visitor)
     }
 
     fn deserialize_enum<V: Visitor<'de>>(
         self,
-        _: &'static str,
+        of: &'static str,
         names: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Misread> {
@@ -305,7 +306,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
             },
             _ => return self.not(kind),
         };
-        let variant = Variant { name, inside };
+        let variant = Variant { of, name, inside };
         Self::named(&self.key, visitor.visit_enum(variant))
     }
 
@@ -388,6 +389,8 @@ impl<'de> de::SeqAccess<'de> for Elements<'_, '_> {
 
 /// A name, with what stands inside it.
 struct Variant<'a> {
+    /// Name of the enum.
+    of: &'static str,
     name: &'a str,
     inside: Option<Reader<'a>>,
 }
@@ -437,6 +440,7 @@ impl<'de> de::VariantAccess<'de> for Variant<'_> {
         fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Misread> {
-        self.inside()?.fields(fields, visitor)
+        let of = self.of;
+        self.inside()?.fields(of, fields, visitor)
     }
 }

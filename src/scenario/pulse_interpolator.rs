@@ -3,10 +3,12 @@
 use crate::circuits::pulse_interpolator::Variant;
 use crate::input::Drawing;
 use crate::jobs::pulse_interpolator::motors::Motors;
-use crate::jobs::pulse_interpolator::{Rewrite, Settings as TableSettings, StepTiming};
+use crate::jobs::pulse_interpolator::{
+    Rewrite, Settings as TableSettings, StepTiming, UNIT_RANGE_TICKS,
+};
 use crate::plan::MotionLimits;
 use crate::plant::StepMotorParameters;
-use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, choices, settings};
+use crate::settings::{CLOCK_RANGE_HZ, Place, STEPS_PER_MM_RANGE, SettingError, choices, settings};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -32,12 +34,12 @@ settings! {
         pub clock_hz: u64 = 1_000_000, in CLOCK_RANGE_HZ;
         /// Steps per millimetre of X, of Y and of Z; negative where the motor turns the other way.
         /// Without it 80 for X, for Y and, where the path moves in Z, for Z.
-        pub steps_per_mm: Option<Vec<f64>> = None,
+        pub steps_per_mm: Option<Vec<f64>> = None, within STEPS_PER_MM_RANGE,
             "1 to 3 numbers of 0.000001 to 1000000000, or the negative of that";
         /// T2: unit time of lines (¶0014).
-        pub line_unit_ticks: u32 = 1000, "2 to what the words of the memory hold";
+        pub line_unit_ticks: u32 = 1000, within UNIT_RANGE_TICKS, "2 to 196605, with room for a pulse";
         /// T1: unit time of arcs (¶0014); without it that of lines.
-        pub arc_unit_ticks: Option<u32> = None, "2 to what the words of the memory hold";
+        pub arc_unit_ticks: Option<u32> = None, within UNIT_RANGE_TICKS, "2 to 196605, with room for a pulse";
         /// Step motors on the drivers, alike on all axes.
         pub motor: Option<StepMotorParameters> = None;
     }

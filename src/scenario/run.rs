@@ -56,6 +56,14 @@ impl<'de, S: Settings> Deserialize<'de> for Keys<S> {
     }
 }
 
+/// Joins names: `a, b and c`.
+fn list(names: &[&str]) -> String {
+    match names {
+        [before @ .., last] if !before.is_empty() => format!("{} and {last}", before.join(", ")),
+        names => names.concat(),
+    }
+}
+
 struct Root<S>(PhantomData<S>);
 
 impl<'de, S: Settings> Visitor<'de> for Root<S> {
@@ -75,7 +83,7 @@ impl<'de, S: Settings> Visitor<'de> for Root<S> {
             let name = S::CIRCUIT.name();
             let problem = match &S::CIRCUIT.others_with(key)[..] {
                 [] => "unknown key".to_owned(),
-                others => format!("is a key of {}, not of {name}", others.join(", ")),
+                others => format!("is not a key of {name}, but of {}", list(others)),
             };
             let names = keys.iter().map(|key| key.name);
             unknown(

@@ -18,6 +18,8 @@ pub struct Key {
     pub shape: Shape,
     /// Least and greatest value that are accepted.
     pub range: Option<fn() -> [String; 2]>,
+    /// Least and greatest value that are accepted with any other settings, where these narrow them.
+    pub widest: Option<fn() -> [String; 2]>,
     /// Other restrictions.
     pub allowed: Option<&'static str>,
 }
@@ -27,10 +29,12 @@ pub struct Key {
 pub enum Shape {
     /// True or false.
     Flag,
-    /// Whole number; from 0 on unless `signed`.
+    /// Whole number.
     Whole {
-        /// True if it may be negative.
-        signed: bool,
+        /// Least number that the type holds.
+        least: i64,
+        /// Greatest number that the type holds.
+        most: i64,
     },
     /// Number with a fraction.
     Number,
@@ -76,10 +80,11 @@ macro_rules! values {
 
 values! {
     bool: Shape::Flag,
-    u32: Shape::Whole { signed: false },
-    u64: Shape::Whole { signed: false },
-    usize: Shape::Whole { signed: false },
-    i64: Shape::Whole { signed: true },
+    u32: Shape::Whole { least: 0, most: u32::MAX as i64 },
+    // TOML has no greater numbers.
+    u64: Shape::Whole { least: 0, most: i64::MAX },
+    usize: Shape::Whole { least: 0, most: i64::MAX },
+    i64: Shape::Whole { least: i64::MIN, most: i64::MAX },
     f64: Shape::Number,
     String: Shape::Text,
     PathBuf: Shape::Path,

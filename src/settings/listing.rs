@@ -65,7 +65,7 @@ fn initial(shape: Shape) -> Option<toml::Table> {
 }
 
 /// A type in words.
-fn kind(shape: Shape) -> String {
+pub(crate) fn kind(shape: Shape) -> String {
     let plain = match shape {
         Shape::Flag => "true or false",
         Shape::Whole { .. } => "whole number",
@@ -93,7 +93,8 @@ fn kind(shape: Shape) -> String {
 
 /// The values that are accepted.
 fn range(key: &Key) -> String {
-    let range = match (key.range, key.shape) {
+    let ends = key.range.or(key.widest.filter(|_| key.allowed.is_none()));
+    let range = match (ends, key.shape) {
         (Some(ends), _) => ends().join(" to "),
         (None, Shape::Choice(names)) => {
             let names = names().iter().map(|name| format!("\"{name}\""));
@@ -104,6 +105,48 @@ fn range(key: &Key) -> String {
     let parts = [range.as_str(), key.allowed.unwrap_or_default()];
     let parts = parts.into_iter().filter(|part| !part.is_empty());
     parts.collect::<Vec<_>>().join("; ")
+}
+
+/// Returns the key that a dotted path leads to.
+pub(crate) fn find(keys: &[&'static Key], path: &[&str]) -> Option<&'static Key> {
+    let (name, inside) = path.split_first()?;
+    let key = *keys.iter().find(|key| key.name == *name)?;
+    match (inside, key.shape) {
+        ([], _) => Some(key),
+        (_, Shape::Table(keys, _) | Shape::List(&Shape::Table(keys, _), _)) => {
+            let keys: Vec<_> = keys.iter().copied().flatten().collect();
+            find(&keys, inside)
+        }
+        _ => None,
+    }
+}
+
+/// Returns the values that a key takes, as an error says them; of an element of a list those of the
+/// element.
+pub(crate) fn allowed(key: &Key, element: bool) -> Option<String> {
+    let shape = match key.shape {
+        Shape::List(of, _) if element => *of,
+        Shape::PerAxis | Shape::Point if element => Shape::Number,
+        shape => shape,
+    };
+    match shape {
+        Shape::Whole { .. } | Shape::Number => {}
+        Shape::Choice(names) => {
+            let names: Vec<_> = names().iter().map(|name| format!("`{name}`")).collect();
+            return Some(format!("one of {}", names.join(", ")));
+        }
+        Shape::Flag => return Some(kind(shape)),
+        _ => return None,
+    }
+    let number = format!("a {}", kind(shape));
+    Some(match (key.range.or(key.widest), shape) {
+        (Some(ends), _) => format!("{number} from {}", ends().join(" to ")),
+        (None, Shape::Whole { least: 0, most }) => match most {
+            i64::MAX => format!("{number} from 0"),
+            most => format!("{number} from 0 to {most}"),
+        },
+        _ => number,
+    })
 }
 
 /// Endings of names, the longest first, and the units that they stand for.

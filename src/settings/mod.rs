@@ -9,6 +9,7 @@ mod table;
 pub use key::{Key, Shape, Value};
 pub(crate) use key::{choices, names};
 pub use listing::{Row, rows};
+pub(crate) use listing::{allowed, find, kind};
 pub(crate) use table::{
     ALLOWED, beside, defaults, has, next, optional, read_keys, read_table, settings, unknown,
 };
@@ -28,6 +29,11 @@ pub const CLOCK_RANGE_HZ: RangeInclusive<u64> = 1..=10_000_000_000;
 /// Counts or steps per millimetre that are accepted.
 pub const COUNTS_PER_MM_RANGE: RangeInclusive<f64> = 1e-6..=1e9;
 
+/// Steps per millimetre that are accepted, but for 0 and what is nearer to it than the least of
+/// [`COUNTS_PER_MM_RANGE`].
+pub(crate) const STEPS_PER_MM_RANGE: RangeInclusive<f64> =
+    -*COUNTS_PER_MM_RANGE.end()..=*COUNTS_PER_MM_RANGE.end();
+
 /// Counts that an axis that is in position may be off by.
 pub const IN_POSITION_RANGE: RangeInclusive<u32> = 1..=1_000_000;
 
@@ -42,6 +48,18 @@ pub fn tidy(value: f64) -> f64 {
     match value.abs() < 1e9 {
         true => format!("{value:.11e}").parse().unwrap_or(value),
         false => value,
+    }
+}
+
+/// Longest number that is written with all of its digits.
+const LONGEST_NUMBER: usize = 24;
+
+/// Formats a value; a number with many digits as a power of ten.
+fn brief(value: impl Display) -> String {
+    let text = value.to_string();
+    match text.parse::<f64>() {
+        Ok(number) if text.len() > LONGEST_NUMBER => format!("{number:e}"),
+        _ => text,
     }
 }
 
@@ -86,7 +104,7 @@ impl SettingError {
 
     /// A setting by itself whose value is at fault.
     pub fn value(field: &'static str, value: impl Display, allowed: impl Into<String>) -> Self {
-        Self::new(field, format!("is {value}"), allowed)
+        Self::new(field, format!("is {}", brief(value)), allowed)
     }
 
     /// Returns the error with a place.
@@ -131,7 +149,14 @@ pub fn within<T: PartialOrd + Display>(
     if allowed.contains(&value) {
         return Ok(());
     }
-    let range = format!("{} to {}", allowed.start(), allowed.end());
+    let ends = [allowed.start(), allowed.end()].map(brief);
+    let range = match allowed.is_empty() {
+        true => format!(
+            "none with the other settings: {} or more, and at most {}",
+            ends[0], ends[1]
+        ),
+        false => ends.join(" to "),
+    };
     Err(SettingError::value(field, value, range))
 }
 

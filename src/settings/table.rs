@@ -4,7 +4,7 @@
 use super::key::{Key, Read, Value};
 use super::renamed::renamed;
 use super::{Place, SettingError, within};
-use crate::nearest::nearest;
+use crate::nearest::{self, nearest};
 use serde::de::{self, DeserializeSeed, Deserializer, Error, MapAccess, Visitor};
 use std::fmt::{self, Display};
 use std::marker::PhantomData;
@@ -31,7 +31,8 @@ pub trait Table: Sized {
 /// Makes structs of settings.
 ///
 /// A field has a type that is a [`Value`], a default, and then what holds of it: `in` a range that
-/// [`ranges`] checks, or a text. `as` gives the key another name. `[required]`: a table must have it. The fields
+/// [`ranges`] checks, `within` a range that other settings narrow and that [`ranges`] leaves to the
+/// job, or a text. `as` gives the key another name. `[required]`: a table must have it. The fields
 /// of `flat` are structs of settings of which the keys stand beside the others; those of `beside`
 /// have no keys. `default` is what [`Default`] gives, if it is not the defaults of the keys.
 ///
@@ -43,7 +44,7 @@ macro_rules! settings {
             $(
                 $(#[doc = $doc:literal])+
                 pub $field:ident $(as $key:literal)? $([$required:ident])? : $type:ty = $default:expr
-                    $(, in $range:expr)? $(, $allowed:literal)?;
+                    $(, in $range:expr)? $(, within $widest:expr)? $(, $allowed:literal)?;
             )*
         }
         $(flat {
@@ -100,6 +101,10 @@ macro_rules! settings {
                     shape: <$type as $crate::settings::Value>::SHAPE,
                     range: $crate::settings::optional!(None $(, Some(|| {
                         let range = $range;
+                        [range.start().to_string(), range.end().to_string()]
+                    }))?),
+                    widest: $crate::settings::optional!(None $(, Some(|| {
+                        let range = $widest;
                         [range.start().to_string(), range.end().to_string()]
                     }))?),
                     allowed: $crate::settings::optional!(None $(, Some($allowed))?),
@@ -185,6 +190,12 @@ impl<T: PartialOrd + Display + Copy> Within<T> for Option<T> {
     }
 }
 
+impl<T: PartialOrd + Display + Copy, const N: usize> Within<T> for Option<[T; N]> {
+    fn check(&self, field: &'static str, allowed: &RangeInclusive<T>) -> Result<(), SettingError> {
+        self.map_or(Ok(()), |values| values.check(field, allowed))
+    }
+}
+
 impl<T: PartialOrd + Display + Copy, const N: usize> Within<T> for [T; N] {
     fn check(&self, field: &'static str, allowed: &RangeInclusive<T>) -> Result<(), SettingError> {
         self.iter().zip(AXIS_NAMES).try_for_each(|(value, axis)| {
@@ -251,7 +262,7 @@ impl<'de, T: Table> Visitor<'de> for Keys<T> {
 }
 
 /// Tells that a key is unknown, as `problem; allowed: …`: another name of the same setting, or else
-/// the nearest name and what else is allowed.
+/// the nearest name and what is allowed.
 pub(crate) fn unknown<'a>(
     key: &str,
     names: impl Iterator<Item = &'a str> + Clone,
@@ -262,16 +273,18 @@ pub(crate) fn unknown<'a>(
         let (name, unit, factor) = (new.name, new.unit, new.factor);
         return format!("is {name}, in {unit}: {factor} times the number{ALLOWED}{name}");
     }
-    let part = || names.clone().find(|name| name.contains(key));
+    // A letter or two stand in too many names.
+    let part = || {
+        names
+            .clone()
+            .find(|name| key.len() > 2 && name.contains(key))
+    };
     // What is as long as that is no key, and comparing it takes long.
     let near = match key.len() {
         ..=LONGEST_KEY => nearest(key, names.clone()).or_else(part),
         _ => None,
     };
-    match near {
-        Some(name) => format!("{problem}{ALLOWED}`{name}` is the nearest; {others}"),
-        None => format!("{problem}{ALLOWED}{others}"),
-    }
+    format!("{problem}{}{ALLOWED}{others}", nearest::meant(near))
 }
 
 /// Longest key, in bytes, for which the nearest name is looked for.
@@ -392,7 +405,7 @@ mod tests {
         assert_eq!(refusal(""), "missing field `number`");
         assert_eq!(
             refusal("number = 4\ndepth = 1"),
-            "unknown key; allowed: `depth_mm` is the nearest; one of `number`, `size_mm`, `name`, \
+            "unknown key; did you mean depth_mm?; allowed: one of `number`, `size_mm`, `name`, \
              `depth_mm`"
         );
         assert!(refusal("number = 4\ncount = 4").starts_with("unknown key; allowed: "));

@@ -182,7 +182,9 @@ fn bad_arms_are_refused() {
     let bench = with(&format!("{SEAM}[arm]\nupper_mm = 300\n"));
     bench.refuse_with(&["run", "s.toml"], |text| {
         assert!(
-            text.contains("fore_mm: missing; allowed: a value, as the key has no default"),
+            text.contains(
+                "fore_mm: missing, and has no default; allowed: a number from 0.001 to 1000000"
+            ),
             "{text}"
         );
     });

@@ -181,7 +181,7 @@ fn what_is_compared_with_nothing_refuses_the_key() {
                    allowed: a drawing, which the conventional device plays too";
     bench.refuse(&["run", "waves/patterns.toml", "--beside"], refused);
     bench.refuse_with(&["run", "--beside"], |stderr| {
-        let text = "error: --set: beside: is a key of ";
+        let text = "error: --set: beside: is not a key of machine, but of ";
         assert!(stderr.starts_with(text), "{stderr}");
     });
 }

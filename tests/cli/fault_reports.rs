@@ -80,7 +80,7 @@ fn all_faults_of_a_scenario_are_told() {
         "s.toml",
         text,
         expect![[r#"
-            error: s.toml:2: clock_hz: invalid type: string "fast"; allowed: a whole number from 0
+            error: s.toml:2: clock_hz: invalid type: string "fast"; allowed: a whole number from 1 to 10000000000
               |
             2 | clock_hz = "fast" # too fast
               |            ^^^^^^
@@ -88,7 +88,7 @@ fn all_faults_of_a_scenario_are_told() {
               |
             3 | colour = 3
               | ^^^^^^
-            error: s.toml:7: speed_counts_per_s: invalid value: integer `-1`; allowed: a whole number from 0 to 4294967295
+            error: s.toml:7: speed_counts_per_s: is -1; allowed: a whole number from 10 to 655350
               |
             7 | speed_counts_per_s = -1
               |                      ^^
@@ -96,7 +96,7 @@ fn all_faults_of_a_scenario_are_told() {
                |
             11 | sped = 10
                | ^^^^
-            error: s.toml:9: speed_counts_per_s: missing; allowed: a value, as the key has no default
+            error: s.toml:9: speed_counts_per_s: missing, and has no default; allowed: a whole number from 10 to 655350
         "#]],
     );
     told(

@@ -154,7 +154,7 @@ fn keys_are_printed_with_type_unit_default_range_and_meaning() {
     };
     refused(
         &["keys", "machin"],
-        "NAME: no job or circuit is called machin; did you mean machine?; allowed: pulse_interpolator, ",
+        "NAME: no job or circuit is called machin; did you mean machine?; allowed: a name of a job or a circuit; `motion-rtl keys` lists all",
     );
     refused(
         &["keys", "compensator", "--json-schema"],
@@ -168,7 +168,7 @@ fn circuits_have_their_keys_listed() {
     let bench = Bench::new();
     let text = bench.succeed(&["keys", "compensator"]);
     for line in [
-        "widths.position = 24, small: 4: whole number, bits, 0 to 4096",
+        "widths.position = 24, small: 4: whole number, bits, 2 to 53",
         "variant.detector = incremental: name, incremental, absolute, phase_shift, resolver",
     ] {
         assert!(text.lines().any(|own| own == line), "{line}: {text}");
@@ -176,7 +176,8 @@ fn circuits_have_their_keys_listed() {
     let json = bench.json(&["keys", "compensator"]);
     let position = json!({
         "key": "widths.position", "full": "24", "small": "4",
-        "type": "whole number", "unit": "bits", "range": "0 to 4096",
+        "type": "whole number", "unit": "bits", "range": "2 to 53",
+        "about": "Width of a position.",
     });
     assert!(
         json["circuit"].as_array().unwrap().contains(&position),
@@ -210,8 +211,16 @@ fn keys_of_circuits_have_a_type_and_a_range_that_their_values_are_in() {
         for key in keys["circuit"].as_array().unwrap() {
             let word = |field: &str| key[field].as_str();
             let (kind, range) = (word("type").unwrap(), word("range").unwrap());
-            types.insert(kind.to_owned());
-            let values = [word("full"), word("small")].into_iter().flatten();
+            if !kind.starts_with("list of ") {
+                types.insert(kind.to_owned());
+            }
+            assert!(
+                word("about").is_some_and(|about| !about.is_empty()),
+                "{key}"
+            );
+            // The ranges hold while the other keys are those of the full circuit.
+            let own = word("full").or_else(|| word("small"));
+            let values = own.into_iter();
             for value in values {
                 let fits = match kind {
                     "whole number" => value.parse().is_ok_and(|value: i64| {
@@ -224,7 +233,7 @@ fn keys_of_circuits_have_a_type_and_a_range_that_their_values_are_in() {
                     }),
                     "name" => range.split(", ").any(|name| name == value),
                     "true or false" => value.parse::<bool>().is_ok(),
-                    "list" => value.starts_with('['),
+                    list if list.starts_with("list of ") => value.starts_with('['),
                     // A table that is not set in both stands for all of its keys.
                     "table" => false,
                     other => panic!("{name}: {key}: there is no type {other}"),
@@ -236,7 +245,7 @@ fn keys_of_circuits_have_a_type_and_a_range_that_their_values_are_in() {
     assert!(
         types
             .into_iter()
-            .eq(["list", "name", "table", "true or false", "whole number"].map(str::to_owned))
+            .eq(["name", "table", "true or false", "whole number"].map(str::to_owned))
     );
 }
 
@@ -258,9 +267,9 @@ fn keys_that_do_not_apply_to_another_circuit_are_reported_together() {
         (
             2,
             vec![
-                "error: s.toml:3: rest_ms: is a key of lead_angle, not of machine; allowed: `motion-rtl keys machine` lists all",
-                "error: s.toml:4: lift_histori: unknown key; allowed: `lift_history` is the nearest; `motion-rtl keys machine` lists all",
-                "error: s.toml:5: [[step]]: is a key of lead_angle, not of machine; allowed: `steps_per_mm` is the nearest; `motion-rtl keys machine` lists all",
+                "error: s.toml:3: rest_ms: is not a key of machine, but of lead_angle; allowed: `motion-rtl keys machine` lists all",
+                "error: s.toml:4: lift_histori: unknown key; did you mean lift_history?; allowed: `motion-rtl keys machine` lists all",
+                "error: s.toml:5: [[step]]: is not a key of machine, but of lead_angle; did you mean steps_per_mm?; allowed: `motion-rtl keys machine` lists all",
             ]
         )
     );

@@ -25,6 +25,7 @@ mod fault_reports;
 mod files;
 mod fst;
 mod json_schema;
+mod key_ends;
 mod keys;
 mod lead_angle;
 mod lenient;

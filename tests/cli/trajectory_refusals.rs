@@ -32,7 +32,7 @@ fn bad_settings_are_refused_with_their_line() {
         ),
         (
             "[[piece]]\nto_mm = [10, 0, 0]\nfeed_mm_per_min = 0\n",
-            "s.toml:8: piece 0: feed_mm_per_min: is 0 mm/min; allowed: a speed above 0",
+            "s.toml:8: piece 0: feed_mm_per_min: is 0; allowed: 0.00006 to 60000000000",
         ),
         (
             "[[piece]]\nto_mm = [10, 0, 0]\n[[piece]]\nto_mm = [30, 0, 0]\nvia_mm = [20, 9, 0]\nspline = true\n",
@@ -44,7 +44,7 @@ fn bad_settings_are_refused_with_their_line() {
         ),
         (
             "[[piece]]\nto_mm = [nan, 0, 0]\nspline = true\n",
-            "s.toml:7: piece 0: to_mm: x is NaN; allowed: a number",
+            "s.toml:7: piece 0: to_mm: is NaN for x; allowed: -1000000000 to 1000000000",
         ),
         (
             "axes = 2\n[[piece]]\nto_mm = [10, 0, 1]\nspline = true\n[[piece]]\nto_mm = [20, 0, 0]\nspline = true\n",
@@ -152,7 +152,7 @@ fn bad_settings_are_refused_with_their_line() {
         ),
         (
             "[machine]\nmax_torque_nm = 1\n",
-            "s.toml:6: motor_inertia_kg_m2: missing; allowed: a value, as the key has no default",
+            "s.toml:6: motor_inertia_kg_m2: missing, and has no default; allowed: a number from 0.000000001 to 1000000000",
         ),
     ];
     for (text, refusal) in cases {
@@ -182,7 +182,7 @@ fn bad_machines_are_refused_with_their_line() {
     let bench = with(&with_machine(("mm_per_rev = 10", "mm_per_rev = 5")));
     bench.refuse(
         &["run", "s.toml"],
-        "s.toml:14: machine.mm_per_rev: is 5: 2000 counts a millimetre; allowed: 10: 1000, as \
+        "s.toml:14: machine.mm_per_rev: is 5, which gives 2000 counts per mm; allowed: 10, for 1000 counts per mm as in \
          counts_per_mm",
     );
     let bench = with(&with_machine(("= 200", "= -1")));

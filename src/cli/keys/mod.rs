@@ -70,7 +70,10 @@ pub fn keys(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::Argument {
             field: "NAME",
             problem: format!("no {kind} is called {name}{near}"),
-            allowed: names.join(", "),
+            allowed: match arguments.json_schema {
+                true => names.join(", "),
+                false => "a name of a job or a circuit; `motion-rtl keys` lists all".to_owned(),
+            },
         });
     }
     if let (Some(job), true) = (job, arguments.json_schema) {
@@ -104,21 +107,25 @@ impl Keys {
     }
 }
 
-/// Formats the keys of a circuit, a line each: the value as it is built, that of the small one, and
-/// what is allowed.
+/// Formats the keys of a circuit, two lines each with an empty line between them: the value as it is
+/// built, that of the small one, and what is allowed; the meaning.
 fn circuit_text(keys: &[registry::Key]) -> String {
     let value = |value: &Option<String>| value.clone().unwrap_or_else(|| "not set".to_owned());
     let lines = keys.iter().map(|key| {
         let (full, small) = (value(&key.full), value(&key.small));
-        let parts = [key.kind, key.unit, key.range.as_str()];
+        let parts = [key.kind.as_str(), key.unit, key.range.as_str()];
         let parts: Vec<_> = parts.into_iter().filter(|part| !part.is_empty()).collect();
         let small = match full == small {
             true => String::new(),
             false => format!(", small: {small}"),
         };
-        format!("{} = {full}{small}: {}\n", key.name, parts.join(", "))
+        let (name, about) = (&key.name, &key.about);
+        format!(
+            "{name} = {full}{small}: {}\n    {about}\n",
+            parts.join(", ")
+        )
     });
-    lines.collect()
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// Formats the keys as text: two lines each, with an empty line between them.

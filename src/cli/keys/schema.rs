@@ -44,7 +44,9 @@ fn table(keys: &[&'static Key], defaults: &toml::Table) -> Value {
 
 /// Adds a range to the schema of a number, or of the numbers of a list.
 fn limit(schema: &mut Map<String, Value>, key: &Key) {
-    let Some(range) = key.range else { return };
+    let Some(range) = key.range.or(key.widest) else {
+        return;
+    };
     // Ends that no number of JSON can be are left to the run.
     let [least, most] = range().map(|end| end.parse::<serde_json::Number>().ok());
     let of = match schema.get_mut("items").and_then(Value::as_object_mut) {
@@ -61,8 +63,9 @@ fn limit(schema: &mut Map<String, Value>, key: &Key) {
 pub fn value(shape: Shape) -> Value {
     match shape {
         Shape::Flag => json!({ "type": "boolean" }),
-        Shape::Whole { signed: false } => json!({ "type": "integer", "minimum": 0 }),
-        Shape::Whole { signed: true } => json!({ "type": "integer" }),
+        Shape::Whole { least, most } => {
+            json!({ "type": "integer", "minimum": least, "maximum": most })
+        }
         Shape::Number => json!({ "type": "number" }),
         Shape::Text | Shape::Path => json!({ "type": "string" }),
         Shape::Choice(names) => json!({ "enum": names() }),

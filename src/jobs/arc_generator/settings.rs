@@ -4,7 +4,7 @@ use super::mechanism::Mechanism;
 use super::prepare::Timing;
 use crate::circuits::arc_generator::{ArcGenerator, Blend, Rounding, Widths};
 use crate::input::Point;
-use crate::jobs::taught::TaughtPiece;
+use crate::jobs::taught::{REACH_RANGE_MM, TaughtPiece};
 use crate::path::arm::Arm;
 use crate::path::pieces::Speeds;
 use crate::settings::{
@@ -27,6 +27,11 @@ pub const fn least_sample_ticks(blend: Blend) -> u64 {
 /// Speeds that are accepted.
 pub const SPEED_RANGE_MM_PER_MIN: RangeInclusive<f64> = 6e-5..=6e10;
 
+/// Sampling periods at any clock, in milliseconds.
+const SAMPLE_RANGE_MS: RangeInclusive<f64> = LEAST_SAMPLE_TICKS as f64 * 1e3
+    / *CLOCK_RANGE_HZ.end() as f64
+    ..=((1u64 << Widths::FULL.period) - 1) as f64 * 1e3;
+
 /// Treatment of a piece that is too short or too tight for its speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -45,15 +50,18 @@ settings! {
     /// blends of 64 ms.
     pub struct Settings {
         /// Start of the first piece.
-        pub start_mm: Point = [0.0; 3];
+        pub start_mm: Point = [0.0; 3], in REACH_RANGE_MM;
         /// Pieces of the path, if it is not a drawing.
         pub piece: Vec<TaughtPiece> = Vec::new();
         /// Reference clock.
         pub clock_hz: u64 = 1_000_000, in CLOCK_RANGE_HZ;
         /// Ts: time from one position command to the next, in whole ticks.
-        pub sample_period_ms: f64 = 1.0, "as many ticks as the circuit needs, or more";
+        pub sample_period_ms: f64 = 1.0, within SAMPLE_RANGE_MS, "as many ticks as the circuit needs, or more";
         /// 2ta: duration of a blend, an even number of samples.
-        pub acceleration_ms: f64 = 64.0, "2 samples to what the words hold";
+        pub acceleration_ms: f64 = 64.0,
+            within 2.0 * *SAMPLE_RANGE_MS.start()
+                ..=*SAMPLE_RANGE_MS.end() * Widths::FULL.most_samples() as f64,
+            "2 samples to what the words hold";
         /// Counts of a position command per millimetre, of every coordinate.
         pub counts_per_mm: f64 = 1000.0, in COUNTS_PER_MM_RANGE;
         /// Speed of the pieces that have none of their own.

@@ -14,6 +14,17 @@ use std::ops::RangeInclusive;
 /// Scans that are accepted, in ticks: the dividers must be done before the scan is over.
 pub const SCAN_RANGE_TICKS: RangeInclusive<u32> = LATENCY_TICKS..=16_777_215;
 
+/// Times of acceleration at any clock, in milliseconds.
+const RAMP_RANGE_MS: RangeInclusive<f64> =
+    0.0..=LONGEST_RAMP as f64 * *SCAN_RANGE_TICKS.end() as f64 * 1e3;
+/// Gains at any clock: a position loop takes at most the whole error in a scan.
+const GAIN_RANGE_PER_S: RangeInclusive<f64> =
+    1e-3..=*CLOCK_RANGE_HZ.end() as f64 / LATENCY_TICKS as f64;
+/// Largest torques of motors that are accepted, in N·m.
+const TORQUE_RANGE_NM: RangeInclusive<f64> = 1e-6..=1e6;
+/// Speeds of motors at any clock, in rev/min.
+const RATED_RANGE_REV_PER_MIN: RangeInclusive<f64> = 1e-3..=1e6;
+
 /// Names of the axes.
 pub const AXIS_NAMES: [&str; 2] = ["x", "y"];
 
@@ -73,18 +84,18 @@ settings! {
         /// Encoder counts per millimetre, the unit of positions.
         pub counts_per_mm: [f64; 2] = [200.0; 2], in COUNTS_PER_MM_RANGE;
         /// Feed of the moves that set none.
-        pub feed_mm_per_min: f64 = 6000.0, "0.001 to full_speed_mm_per_min";
+        pub feed_mm_per_min: f64 = 6000.0, within FEED_RANGE, "0.001 to full_speed_mm_per_min";
         /// Speed with the pen up, and of G0.
-        pub rapid_mm_per_min: f64 = 18_000.0, "0.001 to full_speed_mm_per_min";
+        pub rapid_mm_per_min: f64 = 18_000.0, within FEED_RANGE, "0.001 to full_speed_mm_per_min";
         /// 100 % speed of an axis, to which the times below are, and which no move exceeds; without
         /// it the faster of the two above.
-        pub full_speed_mm_per_min: Option<f64> = None, "0.001 to a count per tick";
+        pub full_speed_mm_per_min: Option<f64> = None, within FEED_RANGE, "0.001 to a count per tick";
         /// Time from rest to 100 % speed (¶0004), in whole scans, the nearest and at least one: the
         /// summary says which, where that is another time. A slower move takes a part of it in
         /// proportion to its speed, rounded up to whole scans: the slope of an axis stays.
-        pub acceleration_ms: f64 = 100.0, "0 to 4095 scans";
+        pub acceleration_ms: f64 = 100.0, within RAMP_RANGE_MS, "0 to 4095 scans";
         /// Time from 100 % speed to rest, likewise.
-        pub deceleration_ms: f64 = 100.0, "0 to 4095 scans";
+        pub deceleration_ms: f64 = 100.0, within RAMP_RANGE_MS, "0 to 4095 scans";
         /// Change to a move that is too short for its speed: shorter times with the same
         /// acceleration, or the same times with less.
         pub short_moves: ShortMoves = ShortMoves::default();
@@ -95,9 +106,10 @@ settings! {
         /// Largest position error of an axis that is in position.
         pub in_position_counts: u32 = 4, in IN_POSITION_RANGE;
         /// Kp of the position loops.
-        pub position_gain_per_s: [f64; 2] = [40.0; 2], "0.001 to 1 per scan";
+        pub position_gain_per_s: [f64; 2] = [40.0; 2], within GAIN_RANGE_PER_S, "0.001 to 1 per scan";
         /// Speed of the motors at the largest D/A word.
-        pub rated_speed_rev_per_min: [f64; 2] = [3000.0; 2], "0.001 to 1000000, at most a count per tick";
+        pub rated_speed_rev_per_min: [f64; 2] = [3000.0; 2],
+            within RATED_RANGE_REV_PER_MIN, "0.001 to 1000000, at most a count per tick";
         /// Counts per revolution of the motors, four for each line of the encoder.
         pub counts_per_rev: [u32; 2] = [4000; 2], in 4..=100_000_000;
         /// Time constants of the drivers' velocity loops.
@@ -105,9 +117,9 @@ settings! {
         /// Inertias of motor and load, at the motor.
         pub inertia_kg_m2: [f64; 2] = [3e-5; 2], in 1e-9..=1e3;
         /// Largest torques of the motors.
-        pub max_torque_nm: [f64; 2] = [0.9; 2], in 1e-6..=1e6;
+        pub max_torque_nm: [f64; 2] = [0.9; 2], in TORQUE_RANGE_NM;
         /// Friction of motor and load, at the motor.
-        pub friction_nm: [f64; 2] = [0.0; 2], "0 to below max_torque_nm";
+        pub friction_nm: [f64; 2] = [0.0; 2], within 0.0..=*TORQUE_RANGE_NM.end(), "0 to below max_torque_nm";
     }
 }
 
@@ -172,12 +184,18 @@ impl Settings {
         within("acceleration_ms", self.acceleration_ms, &times)?;
         within("deceleration_ms", self.deceleration_ms, &times)?;
         // More than the whole error in one scan, and the loop overshoots.
-        self.position_gain_per_s
-            .check("position_gain_per_s", &(1e-3..=1.0 / self.scan_s()))?;
+        self.position_gain_per_s.check(
+            "position_gain_per_s",
+            &(*GAIN_RANGE_PER_S.start()..=1.0 / self.scan_s()),
+        )?;
         for (axis, name) in AXIS_NAMES.into_iter().enumerate() {
             let at = |error: SettingError| error.at(Place::Element(name));
+            let (least, most) = RATED_RANGE_REV_PER_MIN.into_inner();
             let fastest = 60.0 * self.clock_hz as f64 / f64::from(self.counts_per_rev[axis]);
-            let (speed, speeds) = (self.rated_speed_rev_per_min[axis], 1e-3..=fastest.min(1e6));
+            let (speed, speeds) = (
+                self.rated_speed_rev_per_min[axis],
+                least..=fastest.min(most),
+            );
             within("rated_speed_rev_per_min", speed, &speeds).map_err(at)?;
             let (torque, friction) = (self.max_torque_nm[axis], self.friction_nm[axis]);
             if !(0.0..torque).contains(&friction) {

@@ -11,13 +11,15 @@ pub use crate::jobs::trajectory_controller::settings::Correction;
 use crate::plan::MotionLimits;
 use crate::plant::{BodyParameters, TwoMassParameters};
 use crate::settings::{
-    CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, IN_POSITION_RANGE, Place, SettingError, WholeTime,
-    settings, within,
+    CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, IN_POSITION_RANGE, Place, STEPS_PER_MM_RANGE,
+    SettingError, WholeTime, settings, within,
 };
 use std::ops::RangeInclusive;
 
 /// Ticks of a period that the counters hold.
 const PERIOD: RangeInclusive<u32> = 1..=(1 << 24) - 1;
+/// Times to speed at any clock, in milliseconds.
+const RAMP_RANGE_MS: RangeInclusive<f64> = 0.0..=LONGEST_RAMP as f64 * *PERIOD.end() as f64 * 1e3;
 /// Shortest sampling time in ticks: arc generator and trajectory controller are done within it.
 pub const LEAST_SAMPLE_TICKS: u64 = {
     let (arcs, trajectory) = (arcs::LEAST_SAMPLE_TICKS, trajectory::LEAST_PERIOD_TICKS);
@@ -31,7 +33,7 @@ settings! {
         /// Reference clock.
         pub clock_hz: u64 = 400_000, in CLOCK_RANGE_HZ;
         /// T: unit time of the pulse interpolator.
-        pub unit_ticks: u32 = 2000, in PERIOD;
+        pub unit_ticks: u32 = 2000, in pulse::UNIT_RANGE_TICKS, "with room for a pulse";
         /// Scan of the linear interpolator.
         pub scan_ticks: u32 = 400, in LATENCY_TICKS..=*PERIOD.end();
         /// CK of the lead-angle compensator.
@@ -40,34 +42,37 @@ settings! {
         pub sample_ticks: u32 = 400, in LEAST_SAMPLE_TICKS as u32..=*PERIOD.end(),
             "two within 4095 scans";
         /// Steps of the steppers per millimetre.
-        pub steps_per_mm: [f64; 2] = [40.0; 2], "0.000001 to 1000000000, or the negative of that";
+        pub steps_per_mm: [f64; 2] = [40.0; 2], within STEPS_PER_MM_RANGE,
+            "0.000001 to 1000000000, or the negative of that";
         /// Counts of the servos' commands and encoders per millimetre.
         pub counts_per_mm: f64 = 1000.0, in COUNTS_PER_MM_RANGE;
         /// Time in which the servos come to speed, and to rest: the nearest whole number of scans on
         /// lines, of two Ts on arcs. The summary says which, where that is another time.
-        pub acceleration_ms: f64 = 40.0, "a scan or two Ts to 4095 scans";
+        pub acceleration_ms: f64 = 40.0, within RAMP_RANGE_MS, "a scan or two Ts to 4095 scans";
         /// K1 of all models.
-        pub k1_per_s: f64 = 50.0, "above 0, up to 0.5 per Ts, and at most a quarter of k2_per_s";
+        pub k1_per_s: f64 = 50.0, within trajectory::K1_RANGE_PER_S,
+            "above 0, up to 0.5 per Ts, and at most a quarter of k2_per_s";
         /// K2 of all models.
-        pub k2_per_s: f64 = 200.0, "4 times k1_per_s or more, below 2 per Ts";
+        pub k2_per_s: f64 = 200.0, within trajectory::K2_RANGE_PER_S, "4 times k1_per_s or more, below 2 per Ts";
         /// Correction that the trajectory controller adds to the commands; not `feedback`.
         pub correction: Correction = Correction::default();
         /// Gain of the position controls.
-        pub position_gain_per_s: f64 = 30.0, in RATE_RANGE;
+        pub position_gain_per_s: f64 = 30.0, in RATE_RANGE, "and what its word holds at the period";
         /// Bandwidth of the speed controls.
-        pub speed_hz: f64 = 17.0, in RATE_RANGE;
+        pub speed_hz: f64 = 17.0, in RATE_RANGE, "and what its word holds with the axes";
         /// Integral time of the speed controls; 0 for no integral.
-        pub integral_ms: f64 = 40.0, in INTEGRAL_RANGE_MS;
+        pub integral_ms: f64 = 40.0, in INTEGRAL_RANGE_MS, "and what its word holds with the axes";
         /// Distance of both motors from their commands, at most, at which a move begins.
         pub in_position_counts: u32 = 4, in IN_POSITION_RANGE;
         /// Amplifier, motor, load and encoder of X and Y.
         pub machine: TwoMassParameters = TwoMassParameters::default();
         /// Position of the lift with the pen down; up is 0.
-        pub pen_down_counts: i64 = 4000, "not 0";
+        pub pen_down_counts: i64 = 4000, within lift::TARGET_RANGE_COUNTS, "not 0";
         /// Speed of the lift.
-        pub lift_counts_per_s: u32 = 20_000, "a multiple of 10";
+        pub lift_counts_per_s: u32 = 20_000, within lift::SPEED_RANGE_COUNTS_PER_S,
+            "a multiple of 10, at most a count per tick";
         /// Lead of the lift's brake before anything is learned.
-        pub lift_lead_ms: f64 = 25.0, "0, or a whole number of CKs that a code has";
+        pub lift_lead_ms: f64 = 25.0, within lift::LEAD_RANGE_MS, "0, or a whole number of CKs that a code has";
         /// Memory of the lift's past positions.
         pub lift_history: History = History::default();
         /// Drive, body, brake and encoder of the lift. Default: a cam that turns half a revolution.

@@ -18,6 +18,6 @@ pub use control_computer::ControlComputer;
 pub use stored::{Rewrite, Stored, StoredError};
 pub use table::{
     AxisReport, AxisScaling, CountTable, FollowingError, PathSteps, PulseLimits, Ratio, Remedy,
-    Report, Scaled, Settings, StepTiming, Table, TableError, UnitDemand, UnitErrors, Word, compile,
-    compile_unfollowed, demanded, follow,
+    Report, Scaled, Settings, StepTiming, Table, TableError, UNIT_RANGE_TICKS, UnitDemand,
+    UnitErrors, Word, compile, compile_unfollowed, demanded, follow,
 };

@@ -1,7 +1,7 @@
 //! Patterns that are in the memory and are never rewritten (¶0009, ¶0014): selected by command
 //! (¶0019, ¶0026), or played without a control computer (¶0032).
 
-use super::table::Table;
+use super::table::{MAX_UNITS, Table, UNIT_RANGE_TICKS};
 use crate::circuits::pulse_interpolator::group::In;
 use crate::circuits::pulse_interpolator::pattern_memory::Contents;
 use crate::circuits::pulse_interpolator::{Group, Pattern, Variant, Widths};
@@ -30,9 +30,9 @@ settings! {
     #[derive(Copy, Eq)]
     pub struct Rewrite {
         /// Unit time of the run in whose middle T is written, from 0.
-        pub unit [required]: usize = 0;
+        pub unit [required]: usize = 0, within 0..=MAX_UNITS - 1, "a unit time of the run";
         /// T from the next unit time on, up to the end of the pattern.
-        pub period as "unit_ticks" [required]: u32 = 0;
+        pub period as "unit_ticks" [required]: u32 = 0, within UNIT_RANGE_TICKS, "4 or more, and enough for the half-periods";
     }
 }
 

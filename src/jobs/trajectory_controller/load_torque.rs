@@ -47,7 +47,7 @@ settings! {
         /// Begin, from the path's start.
         pub from_s: f64 = 0.0, in LOAD_TIME_RANGE_S;
         /// End; without it the torque stays until the run is over.
-        pub to_s: Option<f64> = None, "above from_s, up to 1000000";
+        pub to_s: Option<f64> = None, within LOAD_TIME_RANGE_S, "above from_s, up to 1000000";
     }
 }
 

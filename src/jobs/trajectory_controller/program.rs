@@ -125,12 +125,12 @@ impl Program {
             let (own, path) = (parameters.counts_per_mm(), settings.counts_per_mm);
             if (own / path - 1.0).abs() > SAME {
                 let problem = format!(
-                    "is {}: {} counts a millimetre",
+                    "is {}, which gives {} counts per mm",
                     parameters.mm_per_rev,
                     tidy(own)
                 );
                 let allowed = format!(
-                    "{}: {path}, as counts_per_mm",
+                    "{}, for {path} counts per mm as in counts_per_mm",
                     tidy(parameters.counts_per_rev / path)
                 );
                 let error = SettingError::new("mm_per_rev", problem, allowed);

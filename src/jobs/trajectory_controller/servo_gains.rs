@@ -87,10 +87,11 @@ impl ServoGains {
                 false => [value * exact / most as f64, value * exact],
             };
             let allowed = format!("{} to {}", short(ends[0] * 1.001), short(ends[1] * 0.999));
-            let problem = format!(
-                "is {value}: its gain is {}, of {most} at most",
-                short(exact)
-            );
+            let exact = short(exact);
+            let problem = match exact < 1.0 {
+                true => format!("is {value}: its gain word is {exact}, which rounds to 0"),
+                false => format!("is {value}: its gain word is {exact}, above {most}"),
+            };
             Err(SettingError::new(field, problem, allowed))
         };
         let one = ((widths.servo_gain - 1) as f64).exp2();

@@ -5,13 +5,13 @@ use super::job::controller;
 use super::load_torque::LoadTorque;
 use super::ramp::Slope;
 use super::segments::FourthAxis;
-use super::servo_gains::{INTEGRAL_RANGE_MS, RATE_RANGE};
+use super::servo_gains::{INERTIA_FACTOR_RANGE, INTEGRAL_RANGE_MS, RATE_RANGE};
 use crate::circuits::trajectory_controller::path_point::AXES;
 pub use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::{Rounding, Widths};
 use crate::input::COORDINATES;
 use crate::jobs::arc_generator::settings::SPEED_RANGE_MM_PER_MIN;
-use crate::jobs::taught::{Coordinates, TaughtPiece, taught};
+use crate::jobs::taught::{Coordinates, REACH_RANGE_MM, TaughtPiece, taught};
 use crate::path::pieces::{Speeds, Taught};
 use crate::plan::ACCELERATION_RANGE;
 use crate::plant::TwoMassParameters;
@@ -25,6 +25,23 @@ use std::path::PathBuf;
 /// step are done within it.
 pub const LEAST_PERIOD_TICKS: u64 =
     controller(COORDINATES, Correction::Vector, Rounding::Nearest).least_period();
+
+/// Periods at any clock, in milliseconds.
+const PERIOD_RANGE_MS: RangeInclusive<f64> = LEAST_PERIOD_TICKS as f64 * 1e3
+    / *CLOCK_RANGE_HZ.end() as f64
+    ..=((1u64 << Widths::FULL.period) - 1) as f64 * 1e3;
+
+/// K1 at any clock, in 1/s: up to 0.5 per period.
+pub const K1_RANGE_PER_S: RangeInclusive<f64> = 0.0..=0.5e3 / *PERIOD_RANGE_MS.start();
+
+/// K2 at any clock, in 1/s: below 2 per period.
+pub const K2_RANGE_PER_S: RangeInclusive<f64> = 0.0..=2e3 / *PERIOD_RANGE_MS.start();
+
+/// Returns the gains of the error feedback that their word holds.
+fn feedback_range(widths: &Widths) -> RangeInclusive<f64> {
+    let one = (widths.feedback().gain_fraction() as f64).exp2();
+    0.0..=((1u64 << widths.gain) - 1) as f64 / one
+}
 
 /// Longest jerk time that is accepted, in ms.
 pub const JERK_TIME_RANGE_MS: RangeInclusive<f64> = 0.0..=1e6;
@@ -48,7 +65,7 @@ settings! {
     /// that in 1/s, 27/s and 37 ms.
     pub struct Settings {
         /// Start of the first piece; at 0 without it.
-        pub start_mm: Option<Coordinates> = None;
+        pub start_mm: Option<Coordinates> = None, in REACH_RANGE_MM;
         /// Pieces of the path, if it is not a drawing.
         pub piece: Vec<TaughtPiece> = Vec::new();
         /// Axes: 2, 3, or 4 with W. Default: 3 if the path moves in Z, otherwise 2.
@@ -56,7 +73,7 @@ settings! {
         /// Reference clock.
         pub clock_hz: u64 = 1_000_000, in CLOCK_RANGE_HZ;
         /// Δt: interpolation period, in whole ticks.
-        pub period_ms: f64 = 1.0, "as many ticks as the circuit needs, or more";
+        pub period_ms: f64 = 1.0, within PERIOD_RANGE_MS, "as many ticks as the circuit needs, or more";
         /// Counts per millimetre, of every axis.
         pub counts_per_mm: f64 = 1000.0, in COUNTS_PER_MM_RANGE;
         /// F: speed of the pieces without an own speed.
@@ -69,7 +86,7 @@ settings! {
         /// acceleration.
         pub acceleration_time_ms: Option<f64> = None, in ACCELERATION_TIME_RANGE_MS;
         /// Largest acceleration of the axes; without it they have no limit of their own.
-        pub axis_acceleration_mm_per_s2: Option<EachAxis> = None, "0.001 to 1000000000";
+        pub axis_acceleration_mm_per_s2: Option<EachAxis> = None, within ACCELERATION_RANGE;
         /// Largest acceleration across the path, on arcs.
         pub normal_acceleration_mm_per_s2: f64 = 2000.0, in ACCELERATION_RANGE;
         /// Steady contour error of the models, with nothing added, to which the feed in curves is
@@ -80,9 +97,9 @@ settings! {
         /// Largest step of the velocity between two segments; 0 stops at every corner.
         pub corner_mm_per_min: f64 = 600.0, in 0.0..=*SPEED_RANGE_MM_PER_MIN.end();
         /// K1 of the models.
-        pub k1_per_s: EachAxis = EachAxis::All(50.0), "above 0, up to 0.5 per period";
+        pub k1_per_s: EachAxis = EachAxis::All(50.0), within K1_RANGE_PER_S, "above 0, up to 0.5 per period";
         /// K2 of the models.
-        pub k2_per_s: EachAxis = EachAxis::All(200.0),
+        pub k2_per_s: EachAxis = EachAxis::All(200.0), within K2_RANGE_PER_S,
             "4 times k1_per_s, or 2 times with allow_overshoot, and more, below 2 per period";
         /// Allows gains with which the models overshoot their targets: K2 from 2·K1 on.
         pub allow_overshoot: bool = false;
@@ -91,18 +108,18 @@ settings! {
         /// Correction that is added to the path's point in the run whose waves are written.
         pub correction: Correction = Correction::default();
         /// Gain of the error along the path in the error feedback.
-        pub tangential_gain: f64 = 1.0, "0 to what a word of the gain holds";
+        pub tangential_gain: f64 = 1.0, within feedback_range(&Widths::FULL);
         /// Gain of the error across the path in the error feedback.
-        pub normal_gain: f64 = 1.0, "0 to what a word of the gain holds";
+        pub normal_gain: f64 = 1.0, within feedback_range(&Widths::FULL);
         /// Gain of the position controls.
-        pub position_gain_per_s: f64 = 30.0, in RATE_RANGE;
+        pub position_gain_per_s: f64 = 30.0, in RATE_RANGE, "and what its word holds at the period";
         /// Bandwidth of the speed controls: their gain is 2πf times the inertia.
-        pub speed_hz: f64 = 17.0, in RATE_RANGE;
+        pub speed_hz: f64 = 17.0, in RATE_RANGE, "and what its word holds with the axes";
         /// Integral time of the speed controls; 0 for no integral.
-        pub integral_ms: f64 = 40.0, in INTEGRAL_RANGE_MS;
+        pub integral_ms: f64 = 40.0, in INTEGRAL_RANGE_MS, "and what its word holds with the axes";
         /// Inertia of motor and load that the feed-forward assumes, as a part of the true one; 0 for
         /// no feed-forward.
-        pub inertia_factor: EachAxis = EachAxis::All(1.0), "0 to 100";
+        pub inertia_factor: EachAxis = EachAxis::All(1.0), within INERTIA_FACTOR_RANGE;
         /// Torques on the loads from outside.
         pub load_torque: Vec<LoadTorque> = Vec::new();
         /// Amplifier, motor, load and encoder of every axis.
@@ -386,7 +403,7 @@ impl Settings {
     /// A gain does not fit its word.
     pub fn feedback_gains(&self, widths: &Widths) -> Result<FeedbackGains, SettingError> {
         let one = (widths.feedback().gain_fraction() as f64).exp2();
-        let range = 0.0..=((1u64 << widths.gain) - 1) as f64 / one;
+        let range = feedback_range(widths);
         let word = |field, gain: f64| {
             within(field, gain, &range)?;
             Ok((gain * one).round() as u64)

@@ -1,6 +1,6 @@
 //! Parameters of a braked body, and their allowed ranges.
 
-use crate::plant::parameters::POSITIVE;
+use crate::plant::parameters::{MOST_TORQUE_NM, POSITIVE};
 use crate::settings::settings;
 use std::ops::RangeInclusive;
 
@@ -19,11 +19,11 @@ settings! {
         /// Inertia of motor and body before the load changes.
         pub inertia_kg_m2 [required]: f64 = 0.5, in POSITIVE;
         /// Coulomb friction of the bearings before the load changes; 0 for none.
-        pub friction_nm [required]: f64 = 1.5, in 0.0..=*POSITIVE.end();
+        pub friction_nm [required]: f64 = 1.5, in 0.0..=MOST_TORQUE_NM;
         /// Time from the control signal until the brake engages.
         pub brake_dead_time_s [required]: f64 = 0.012, in 0.0..=10.0;
         /// Friction torque of the new brake.
-        pub brake_torque_nm [required]: f64 = 50.0, in POSITIVE;
+        pub brake_torque_nm [required]: f64 = 50.0, in *POSITIVE.start()..=MOST_TORQUE_NM;
         /// Part of its torque that the brake loses with each braking; 0 for none.
         pub brake_fade [required]: f64 = 0.0005, in 0.0..=0.5;
     }

@@ -1,6 +1,6 @@
 //! Parameters of a motor with an elastic load, and their allowed ranges.
 
-use crate::plant::parameters::POSITIVE;
+use crate::plant::parameters::{MOST_TORQUE_NM, POSITIVE};
 use crate::settings::{Table, settings};
 use std::ops::RangeInclusive;
 
@@ -14,7 +14,7 @@ settings! {
     #[derive(Copy)]
     pub struct TwoMassParameters {
         /// Largest torque of the amplifier: that of the largest torque word.
-        pub max_torque_nm [required]: f64 = 10.0, in POSITIVE;
+        pub max_torque_nm [required]: f64 = 10.0, in *POSITIVE.start()..=MOST_TORQUE_NM;
         /// Inertia of the motor.
         pub motor_inertia_kg_m2 [required]: f64 = 1e-3, in POSITIVE;
         /// Inertia of the load.

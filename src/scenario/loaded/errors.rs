@@ -7,9 +7,10 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::super::{Runnable, Scenario};
-use super::{CIRCUIT, NO_DEFAULT, scenario};
+use super::{CIRCUIT, Located, MISSING, scenario};
 use crate::input::{Fault, Faults};
-use crate::settings::ALLOWED;
+use crate::nearest::did_you_mean;
+use crate::settings::{self, ALLOWED, Key, Shape};
 
 /// Most faults that are looked for: more than a shipped scenario has keys.
 const MOST_FOUND: usize = 100;
@@ -47,7 +48,15 @@ pub(super) fn read(
             Some(key) if left_out.iter().any(|out| out == key) => break,
             _ => {}
         }
-        found.push(fault(file, text, error.inner()));
+        let job = circuit.or_else(|| circuit_of(table.get_ref()));
+        let fault = fault(file, text, error.inner());
+        found.push(match missing(error.inner().message()) {
+            Some(key) => Fault {
+                allowed: allowed(job, error.path(), Some(key)),
+                ..fault
+            },
+            None => refined(fault, job, &error),
+        });
         let message = error.inner().message();
         let unknown = message.starts_with("unknown ") || message.contains(ALLOWED);
         match leave_out(&mut table, error.path(), unknown) {
@@ -56,7 +65,7 @@ pub(super) fn read(
         }
     }
     // A missing key may be a misspelt one: misspelt keys come first.
-    found.sort_by_key(|fault| (fault.problem == "missing", fault.line));
+    found.sort_by_key(|fault| (fault.problem == MISSING, fault.line));
     let mut faults = Faults::default();
     // All of them: a scenario that moves to another circuit has many keys that do not apply.
     for fault in found {
@@ -74,8 +83,75 @@ pub(super) fn read(
     })
 }
 
+/// The circuit that a table names, if there is one of this name.
+fn circuit_of(table: &DeTable<'_>) -> Option<Runnable> {
+    let name = table.get(CIRCUIT)?.get_ref().as_str()?;
+    Runnable::ALL.into_iter().find(|job| job.name() == name)
+}
+
+/// The key of a job that a path leads to, and true if it leads to an element of its list.
+fn key_at(job: Option<Runnable>, path: &Path, last: Option<&str>) -> Option<(&'static Key, bool)> {
+    let mut names: Vec<_> = Vec::new();
+    let mut element = false;
+    for segment in path {
+        match segment {
+            Segment::Map { key } => {
+                names.push(key.as_str());
+                element = false;
+            }
+            Segment::Seq { .. } => element = true,
+            Segment::Enum { .. } | Segment::Unknown => {}
+        }
+    }
+    names.extend(last);
+    // The key that chooses the job is one of all jobs.
+    let (keys, _) = job.unwrap_or(Runnable::Machine).keys();
+    let key = settings::find(&keys, &names)?;
+    Some((key, element && last.is_none()))
+}
+
+/// Values that a missing key takes.
+pub(super) fn allowed(job: Option<Runnable>, path: &Path, missing: Option<&str>) -> String {
+    let key = key_at(job, path, missing);
+    let values = key.and_then(|(key, element)| settings::allowed(key, element));
+    let tables = || {
+        let name = missing.unwrap_or_default();
+        of_lists(name, ", expected a sequence").map(|(_, allowed)| allowed)
+    };
+    let words = || match key?.0.shape {
+        Shape::Text => Some(settings::kind(Shape::Text)),
+        shape => Some(format!("a {}", settings::kind(shape))),
+    };
+    let values = values.or_else(tables).or_else(words);
+    values.unwrap_or_else(|| "a value".to_owned())
+}
+
+/// Returns the fault of a value with the values that its key takes.
+pub(super) fn refined(fault: Fault, job: Option<Runnable>, error: &Located) -> Fault {
+    let message = error.inner().message();
+    let of_value = ["invalid type", "invalid value", NO_NAME];
+    if !of_value.iter().any(|start| message.starts_with(start)) {
+        return fault;
+    }
+    let key = key_at(job, error.path(), None);
+    let values = key.and_then(|(key, element)| settings::allowed(key, element));
+    let problem = match fault.problem.strip_prefix("invalid value: integer `") {
+        Some(number) => format!("is {}", number.trim_end_matches('`')),
+        None if message == NO_NAME => "is not text".to_owned(),
+        None => fault.problem,
+    };
+    Fault {
+        problem,
+        allowed: values.unwrap_or(fault.allowed),
+        ..fault
+    }
+}
+
+/// Message of the TOML reader about a name that is neither text nor a table.
+const NO_NAME: &str = "wanted string or table";
+
 /// The key that a message says is missing.
-fn missing(message: &str) -> Option<&str> {
+pub(super) fn missing(message: &str) -> Option<&str> {
     let key = message.strip_prefix("missing field `")?;
     Some(key.trim_end_matches('`'))
 }
@@ -159,6 +235,7 @@ pub(super) fn split(message: &str) -> (String, String) {
     }
     // If the text is not TOML, the token that the parser expects next is rarely the one meant.
     let of_a_value = message.starts_with("invalid ") || message.starts_with("unknown ");
+    let of_name = message.strip_prefix("unknown variant `");
     let (problem, allowed) = message
         .split_once(", expected ")
         .filter(|_| of_a_value)
@@ -177,7 +254,10 @@ pub(super) fn split(message: &str) -> (String, String) {
         record if record.starts_with("struct ") => "a table of keys and values",
         other => other,
     };
-    (problem.replace(" as i128", ""), allowed.to_owned())
+    let near = of_name.and_then(|name| name.split_once('`'));
+    let names = allowed.split('`').skip(1).step_by(2);
+    let near = near.map_or_else(String::new, |(name, _)| did_you_mean(name, names));
+    (problem.replace(" as i128", "") + &near, allowed.to_owned())
 }
 
 /// Returns an error of the TOML reader as a fault with its line.
@@ -191,7 +271,7 @@ pub(super) fn fault(file: &str, text: &str, error: &toml::de::Error) -> Fault {
             0 => 0,
             place => line_at(text.as_bytes(), place),
         };
-        return Fault::new(file, line, key, "missing", NO_DEFAULT);
+        return Fault::new(file, line, key, MISSING, "a value");
     }
     let line = line_at(text.as_bytes(), error.span().map_or(0, |span| span.start));
     let mut upwards = text

@@ -138,7 +138,10 @@ impl Loaded {
         let mut table = parsed.map_err(|error| errors::fault(file, text, &error))?;
         let mut pairs = pairs.into_iter().peekable();
         while let Some((key, value)) = pairs.next() {
-            insert(&mut table, key, value)?;
+            let job = circuit.or_else(|| circuit_of(&table));
+            let defaults = job.map(|job| job.keys().1).unwrap_or_default();
+            insert(&mut table, &defaults, key, value)
+                .map_err(|(problem, allowed)| Fault::new(SET, 0, key, problem, allowed))?;
             overridden.push(key.to_owned());
             // Another circuit may need all of them.
             if circuit.is_some() && pairs.peek().is_some() {
@@ -148,7 +151,7 @@ impl Loaded {
             // readers.
             let text = table.to_string();
             let table = DeTable::parse(&text).map_err(|error| errors::fault(SET, &text, &error))?;
-            read = Some(scenario(&table).map_err(|error| set_fault(key, &error))?);
+            read = Some(scenario(&table).map_err(|error| set_fault(job, key, &error))?);
         }
         let no_scenario = || Fault::new(file, 0, "file", "is no scenario", "a scenario in TOML");
         Ok(Loaded {
@@ -276,8 +279,13 @@ fn chosen(sets: &[String]) -> Result<Option<Runnable>, Fault> {
     Ok(circuit.and_then(|(_, circuit)| circuit.try_into().ok()))
 }
 
-/// Allowed value of a missing key.
-const NO_DEFAULT: &str = "a value, as the key has no default";
+/// Problem of a key that is missing.
+const MISSING: &str = "missing, and has no default";
+
+/// The circuit that a table names, if there is one of this name.
+fn circuit_of(table: &Table) -> Option<Runnable> {
+    table.get(CIRCUIT)?.clone().try_into().ok()
+}
 
 /// Part of a scenario that decides how the rest is read.
 #[derive(Deserialize)]
@@ -304,30 +312,39 @@ fn scenario(table: &Spanned<DeTable<'_>>) -> Result<Scenario, Located> {
     })
 }
 
-/// Gives a key a value; `name.key` is one of the table `[name]`.
-fn insert(table: &mut Table, key: &str, value: Value) -> Result<(), Fault> {
+/// Gives a key a value; `name.key` is one of the table `[name]`, which begins with its defaults if it
+/// is not there. Where that cannot be, returns the problem and what is allowed.
+fn insert(
+    table: &mut Table,
+    defaults: &Table,
+    key: &str,
+    value: Value,
+) -> Result<(), (String, String)> {
     let Some((name, inner)) = key.split_once('.') else {
         table.insert(key.to_owned(), value);
         return Ok(());
     };
-    let (problem, whole) = match table.get_mut(name) {
-        Some(Value::Table(table)) => {
-            table.insert(inner.to_owned(), value);
-            return Ok(());
+    let initial = defaults.get(name).and_then(Value::as_table);
+    let initial = initial.cloned().unwrap_or_default();
+    // The reader refuses a table that there is not, and names it.
+    let place = table
+        .entry(name)
+        .or_insert_with(|| Value::Table(initial.clone()));
+    match place {
+        Value::Table(table) => insert(table, &initial, inner, value),
+        Value::Array(_) => {
+            let allowed = format!("the whole list: {name}=[{{key=value,…}},…]");
+            Err((format!("{name} is a list"), allowed))
         }
-        Some(Value::Array(_)) => (format!("{name} is a list"), "[{key=value,…},…]"),
-        Some(_) => (format!("{name} is no table"), "value"),
-        None => (
-            format!("the scenario has no table [{name}]"),
-            "{key=value,…} with every key that has no default",
-        ),
-    };
-    let allowed = format!("all of it: {name}={whole}");
-    Err(Fault::new(SET, 0, key, problem, allowed))
+        _ => Err((
+            format!("{name} has no keys inside"),
+            format!("a value of it: {name}=value"),
+        )),
+    }
 }
 
 /// Returns the fault of an override: of its key, or of a key within its value.
-fn set_fault(key: &str, error: &Located) -> Fault {
+fn set_fault(job: Option<Runnable>, key: &str, error: &Located) -> Fault {
     let mut field = String::new();
     for segment in error.path() {
         match segment {
@@ -344,18 +361,18 @@ fn set_fault(key: &str, error: &Located) -> Fault {
         }
     }
     let message = error.inner().message();
-    if let Some(missing) = message.strip_prefix("missing field `") {
-        let missing = missing.trim_end_matches('`');
+    if let Some(missing) = errors::missing(message) {
         let field = match field.as_str() {
             "" => missing.to_owned(),
             within if within.ends_with(':') => format!("{within} {missing}"),
             within => format!("{within}.{missing}"),
         };
-        return Fault::new(SET, 0, field, "missing", NO_DEFAULT);
+        let allowed = errors::allowed(job, error.path(), Some(missing));
+        return Fault::new(SET, 0, field, MISSING, allowed);
     }
     let field = if field.is_empty() { key } else { &field };
     let (problem, allowed) = of_lists(field, message).unwrap_or_else(|| split(message));
-    Fault::new(SET, 0, field, problem, allowed)
+    errors::refined(Fault::new(SET, 0, field, problem, allowed), job, error)
 }
 
 fn key_value(set: &str) -> Result<(&str, Value), Fault> {

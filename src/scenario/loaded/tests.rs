@@ -30,7 +30,7 @@ fn a_wrong_type_names_the_key_also_lines_below_it() {
             &format!("{BARE}steps_per_mm = [\n  80,\n  \"a\",\n]\n"),
             &[]
         ),
-        "s.toml:4: steps_per_mm: invalid type: string \"a\"; allowed: a number"
+        "s.toml:4: steps_per_mm: invalid type: string \"a\"; allowed: a number from -1000000000 to 1000000000"
     );
 }
 
@@ -113,7 +113,7 @@ fn a_step_of_the_wrong_shape_is_refused_with_its_line() {
     let with = |steps: &str| refusal(&format!("circuit = \"lead_angle\"\n{steps}"), &[]);
     assert_eq!(
         with(""),
-        "s.toml: step: missing; allowed: a value, as the key has no default"
+        "s.toml: step: missing, and has no default; allowed: tables [[step]]"
     );
     assert_eq!(
         with("step = 5\n"),
@@ -121,15 +121,15 @@ fn a_step_of_the_wrong_shape_is_refused_with_its_line() {
     );
     assert_eq!(
         with("[[step]]\ntarget = 1\n"),
-        "s.toml:2: speed_counts_per_s: missing; allowed: a value, as the key has no default"
+        "s.toml:2: speed_counts_per_s: missing, and has no default; allowed: a whole number from 10 to 655350"
     );
     assert_eq!(
         with("[[step]]\nspeed_counts_per_s = 1\ntarget = 1.5\n"),
-        "s.toml:4: target: invalid type: floating point `1.5`; allowed: a whole number"
+        "s.toml:4: target: invalid type: floating point `1.5`; allowed: a whole number from -2097152 to 2097152"
     );
     assert_eq!(
         with("[[step]]\nspeed = 1\n"),
-        "s.toml:3: speed: unknown key; allowed: `speed_counts_per_s` is the nearest; one of `target`, \
+        "s.toml:3: speed: unknown key; did you mean speed_counts_per_s?; allowed: one of `target`, \
          `speed_counts_per_s`, `lead_ms`, `load_lead_ms`"
     );
     assert_eq!(
@@ -143,7 +143,7 @@ fn a_fault_within_the_value_of_an_override_names_its_place() {
     let speed = "speed_counts_per_s=4";
     assert_eq!(
         refusal(STEPS, &["step=[{target=1}]"]),
-        "--set: step 0: speed_counts_per_s: missing; allowed: a value, as the key has no default"
+        "--set: step 0: speed_counts_per_s: missing, and has no default; allowed: a whole number from 10 to 655350"
     );
     assert_eq!(
         refusal(
@@ -152,7 +152,7 @@ fn a_fault_within_the_value_of_an_override_names_its_place() {
                 "step=[{{target=1,{speed}}},{{target=1.5,{speed}}}]"
             )]
         ),
-        "--set: step 1: target: invalid type: floating point `1.5`; allowed: a whole number"
+        "--set: step 1: target: invalid type: floating point `1.5`; allowed: a whole number from -2097152 to 2097152"
     );
     assert_eq!(
         refusal(STEPS, &["step=5"]),
@@ -162,18 +162,18 @@ fn a_fault_within_the_value_of_an_override_names_its_place() {
         refusal("circuit = \"machine\"\n", &["machine=5"]),
         "--set: machine: invalid type: integer `5`; allowed: a table of keys and values"
     );
-    assert_eq!(
-        refusal("circuit = \"machine\"\n", &["machine.mass=5"]),
-        "--set: machine.mass: the scenario has no table [machine]; allowed: all of it: \
-         machine={key=value,…} with every key that has no default"
+    let unknown = refusal("circuit = \"machine\"\n", &["machine.mass=5"]);
+    assert!(
+        unknown.starts_with("--set: machine.mass: unknown key; allowed: one of `max_torque_nm`, "),
+        "{unknown}"
     );
     assert_eq!(
         refusal("circuit = \"machine\"\nclock_hz = 9\n", &["clock_hz.b=5"]),
-        "--set: clock_hz.b: clock_hz is no table; allowed: all of it: clock_hz=value"
+        "--set: clock_hz.b: clock_hz has no keys inside; allowed: a value of it: clock_hz=value"
     );
     let one = refusal("circuit = \"machine\"\n", &["machine={max_torque_nm=1}"]);
     assert!(
-        one.starts_with("--set: machine.") && one.contains(": missing; "),
+        one.starts_with("--set: machine.") && one.contains(": missing, and has no default; "),
         "{one}"
     );
     let step = &format!("step=[{{target=1,{speed}}}]");
@@ -275,7 +275,10 @@ fn another_circuit_takes_its_keys_from_the_overrides() {
     assert_eq!((keys.settings.clock_hz, keys.settings.ck_ticks), (7, 50));
     assert_eq!(keys.settings.steps[0].target, 3);
     let without = refusal("circuit = \"machine\"\n", &["circuit=lead_angle"]);
-    assert!(without.starts_with("--set: step: missing; "), "{without}");
+    assert!(
+        without.starts_with("--set: step: missing, and has no default; "),
+        "{without}"
+    );
     let wrong = refusal(
         "circuit = \"machine\"\n",
         &["clock_hz=fast", "circuit=arc_generator"],
@@ -299,14 +302,100 @@ fn keys_that_do_not_apply_are_told_all_at_once() {
         (
             2,
             "beside",
-            "is a key of pulse_interpolator, linear_interpolator, lead_angle, arc_generator, \
-             trajectory_controller, not of machine",
+            "is not a key of machine, but of pulse_interpolator, linear_interpolator, lead_angle, \
+             arc_generator and trajectory_controller",
         ),
-        (3, "rest_ms", "is a key of lead_angle, not of machine"),
-        (4, "ck_tiks", "unknown key"),
+        (3, "rest_ms", "is not a key of machine, but of lead_angle"),
+        (4, "ck_tiks", "unknown key; did you mean ck_ticks?"),
     ];
     assert_eq!(
         faults,
         expected.map(|(line, key, problem)| (line, key.into(), problem.into()))
+    );
+}
+
+/// The settings of the machine's scenario, with overrides.
+fn machine(text: &str, sets: &[&str]) -> crate::jobs::machine::Settings {
+    let sets: Vec<_> = sets.iter().map(|&set| set.to_owned()).collect();
+    let loaded = Loaded::parse("s.toml", text, &sets).expect("a scenario");
+    match loaded.scenario {
+        Scenario::Machine(keys) => keys.settings,
+        _ => panic!("another circuit"),
+    }
+}
+
+#[test]
+fn a_key_of_a_table_that_is_not_given_leaves_the_others_at_their_defaults() {
+    let text = "circuit = \"machine\"\n";
+    let set = machine(text, &["lift.friction_nm=0.5", "machine.backlash_rad=0.25"]);
+    let plain = machine(text, &[]);
+    assert_eq!(
+        (set.lift.friction_nm, set.machine.backlash_rad),
+        (0.5, 0.25)
+    );
+    assert_eq!(set.lift.brake_torque_nm, plain.lift.brake_torque_nm);
+    assert_eq!(set.machine.max_torque_nm, plain.machine.max_torque_nm);
+    let loaded = Loaded::parse("s.toml", text, &["program.g54_mm=[1,2,3]".to_owned()]);
+    let zeros = loaded.expect("a scenario").scenario.run().program.clone();
+    assert_eq!((zeros.g54_mm, zeros.g55_mm), ([1.0, 2.0, 3.0], [0.0; 3]));
+    // A table without defaults says which of its keys is missing.
+    let motor = refusal(BARE, &["motor.friction_nm=1"]);
+    assert!(
+        motor.starts_with("--set: motor.holding_torque_nm: missing, and has no default"),
+        "{motor}"
+    );
+}
+
+#[test]
+fn an_unknown_key_is_named_however_deep_it_is() {
+    for (set, key) in [
+        ("a.b.c.d=3", "a"),
+        ("program.b.c=3", "program.b"),
+        ("lift.mass.x=3", "lift.mass"),
+    ] {
+        let said = refusal("circuit = \"machine\"\n", &[set]);
+        assert!(
+            said.starts_with(&format!("--set: {key}: unknown key; ")),
+            "{set}: {said}"
+        );
+    }
+    let inside = refusal("circuit = \"machine\"\nclock_hz = 5\n", &["clock_hz.x=3"]);
+    assert_eq!(
+        inside,
+        "--set: clock_hz.x: clock_hz has no keys inside; allowed: a value of it: clock_hz=value"
+    );
+}
+
+#[test]
+fn the_name_that_was_meant_and_the_range_of_a_key_are_said() {
+    let said = |set: &str| {
+        refusal(
+            "circuit = \"lead_angle\"\n[[step]]\ntarget = 1\nspeed_counts_per_s = 10\n",
+            &[set],
+        )
+    };
+    for (set, start) in [
+        (
+            "detector=resolvr",
+            "--set: detector: unknown variant `resolvr`; did you mean resolver?; allowed: ",
+        ),
+        (
+            "circuit=arc_generatr",
+            "--set: circuit: unknown variant `arc_generatr`; did you mean arc_generator?; allowed: ",
+        ),
+        (
+            "clock_hz=-4",
+            "--set: clock_hz: is -4; allowed: a whole number from 1 to 10000000000",
+        ),
+        (
+            "circuit=5",
+            "--set: circuit: is not text; allowed: one of `pulse_interpolator`, ",
+        ),
+    ] {
+        assert!(said(set).starts_with(start), "{set}: {}", said(set));
+    }
+    assert!(
+        refusal("circuit = 5\n", &[])
+            .starts_with("s.toml:1: circuit: is not text; allowed: one of ")
     );
 }

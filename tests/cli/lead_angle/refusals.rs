@@ -42,7 +42,7 @@ fn settings_are_checked_and_named_with_their_line() {
     );
     assert_eq!(
         refused("brake_torque_nm = -1\n"),
-        "error: s.toml:2: brake_torque_nm: is -1; allowed: 0.000000001 to 1000000000\n"
+        "error: s.toml:2: brake_torque_nm: is -1; allowed: 0.000000001 to 2147483\n"
     );
     assert_eq!(
         refused("load_change_after = 25\n"),

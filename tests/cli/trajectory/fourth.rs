@@ -118,7 +118,7 @@ fn w_at_fault_is_refused_with_its_line() {
         ),
         (
             "[[piece]]\nto_mm = [3, 0, 0, nan]\n",
-            "s.toml:8: piece 0: to_mm: w is NaN; allowed: a number".to_owned(),
+            "s.toml:8: piece 0: to_mm: is NaN for w; allowed: -1000000000 to 1000000000".to_owned(),
         ),
         (
             "[[piece]]\nspline = true\nto_mm = [3, 0, 0, 1]\n",

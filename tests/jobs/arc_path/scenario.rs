@@ -92,7 +92,7 @@ fn every_key_is_read() {
 fn keys_of_the_wrong_shape_are_refused_with_their_line() {
     assert_eq!(
         refusal("[[piece]]\nvia_mm = [1, 2, 3]\n"),
-        "s.toml:2: to_mm: missing; allowed: a value, as the key has no default"
+        "s.toml:2: to_mm: missing, and has no default; allowed: a list of X, Y, Z, or of X, Y, Z, W"
     );
     assert_eq!(
         refusal("[[piece]]\nto_mm = [1, 2]\n"),
@@ -104,7 +104,7 @@ fn keys_of_the_wrong_shape_are_refused_with_their_line() {
     );
     assert_eq!(
         refusal("[[piece]]\nto_mm = [1, 2, \"z\"]\n"),
-        "s.toml:3: to_mm: invalid type: string \"z\"; allowed: a number"
+        "s.toml:3: to_mm: invalid type: string \"z\"; allowed: a number from -1000000000 to 1000000000"
     );
     assert_eq!(
         refusal("piece = 3\n"),

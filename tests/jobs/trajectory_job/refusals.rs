@@ -61,7 +61,7 @@ fn an_axis_that_does_not_fit_is_named() {
         .to_string();
     assert_eq!(
         text,
-        "axis 0: max_torque_nm: is 0.1: its gain is 19760000, of 16777215 at most; allowed: 0.1179 to 1974000"
+        "axis 0: max_torque_nm: is 0.1: its gain word is 19760000, above 16777215; allowed: 0.1179 to 1974000"
     );
     // The limits named in the messages are allowed.
     for max_torque_nm in [0.1179, 3000.0] {
@@ -78,7 +78,7 @@ fn an_axis_that_does_not_fit_is_named() {
     let good = [TwoMassParameters::default(); 2];
     assert_eq!(
         program(&pieces, &fast, &good).unwrap_err().to_string(),
-        "speed_hz: is 1000000: its gain is 1242000000, of 16777215 at most; allowed: 0.0008061 to 13500"
+        "speed_hz: is 1000000: its gain word is 1242000000, above 16777215; allowed: 0.0008061 to 13500"
     );
     let none = Settings {
         integral_ms: 0.0,

@@ -27,7 +27,7 @@ impl Settings {
         let cks = lead_ms / self.ck_ms();
         let time = cks.round() as u64;
         // A time written in milliseconds has its rounding.
-        let meant = (cks - time as f64).abs() < 1e-6;
+        let meant = lead_ms >= 0.0 && (cks - time as f64).abs() < 1e-6;
         (meant && (time == 0 || self.known(time).is_some())).then_some(time)
     }
 

@@ -9,7 +9,7 @@ use crate::circuits::lead_angle::Memory;
 use crate::circuits::lead_angle::codes::LARGEST;
 pub use crate::circuits::lead_angle::{Comparing, Detector, Function, LeadForm, Placement, Sign};
 use crate::input::position_log::Columns;
-use crate::plant::{BodyParameters, Load, ResolverParameters};
+use crate::plant::{BodyParameters, Load, MOST_TORQUE_NM, ResolverParameters};
 use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, choices, settings, within};
 pub use detector::{CONVERSION_TICKS, PITCH_RANGE_COUNTS, SAMPLING_RANGE_PPM, TURN_RANGE_COUNTS};
 use serde::{Deserialize, Serialize};
@@ -23,10 +23,26 @@ pub const CK_RANGE_TICKS: RangeInclusive<u32> = 4..=(1 << WIDTHS.ck_period) - 1;
 /// Targets that are accepted, in counts: no way between two of them is half of what wraps.
 pub const TARGET_RANGE_COUNTS: RangeInclusive<i64> =
     -(1 << (WIDTHS.position - 3))..=1 << (WIDTHS.position - 3);
+/// Greatest distance of a switch from its target, in counts: less than any way.
+const SWITCH_MOST_COUNTS: u32 =
+    (*TARGET_RANGE_COUNTS.end() - *TARGET_RANGE_COUNTS.start()) as u32 - 1;
 /// Allowed count of steps.
 pub const STEPS_RANGE: RangeInclusive<usize> = 1..=1 << WIDTHS.step;
 /// Allowed count of positionings in a run.
 pub const POSITIONINGS_RANGE: RangeInclusive<u32> = 1..=10_000;
+/// CKs at any clock, in milliseconds.
+const CK_RANGE_MS: [f64; 2] = [
+    *CK_RANGE_TICKS.start() as f64 * 1e3 / *CLOCK_RANGE_HZ.end() as f64,
+    *CK_RANGE_TICKS.end() as f64 * 1e3 / *CLOCK_RANGE_HZ.start() as f64,
+];
+/// Lead times at any clock, in milliseconds.
+pub const LEAD_RANGE_MS: RangeInclusive<f64> = 0.0..=LARGEST as f64 * CK_RANGE_MS[1];
+/// Times other than lead times at any clock, in milliseconds.
+pub const TIME_RANGE_MS: RangeInclusive<f64> =
+    CK_RANGE_MS[0]..=*TIME_RANGE_CKS.end() as f64 * CK_RANGE_MS[1];
+/// Speeds that the speed word holds, in counts a second.
+pub const SPEED_RANGE_COUNTS_PER_S: RangeInclusive<u32> =
+    SPEED_UNIT_COUNTS_PER_S..=((1 << WIDTHS.speed) - 1) * SPEED_UNIT_COUNTS_PER_S;
 /// Times other than lead times that are accepted, in CKs.
 pub const TIME_RANGE_CKS: RangeInclusive<u16> = 1..=((1u32 << WIDTHS.cks) - 1) as u16;
 
@@ -123,12 +139,12 @@ settings! {
         pub target [required]: i64 = 0, in TARGET_RANGE_COUNTS;
         /// Speed on the way.
         pub speed_counts_per_s [required]: u32 = SPEED_UNIT_COUNTS_PER_S,
-            "a multiple of 10 that the detector follows";
+            within SPEED_RANGE_COUNTS_PER_S, "a multiple of 10 that the detector follows";
         /// Δt: lead time to begin with; 0 for none.
-        pub lead_ms: f64 = 0.0, "whole CKs that a code has";
+        pub lead_ms: f64 = 0.0, within LEAD_RANGE_MS, "whole CKs that a code has";
         /// Lead time that is set when the load changes, before the next positioning; without it the
         /// step goes on with what it has.
-        pub load_lead_ms: Option<f64> = None, "whole CKs that a code has";
+        pub load_lead_ms: Option<f64> = None, within LEAD_RANGE_MS, "whole CKs that a code has";
     }
 }
 
@@ -189,27 +205,27 @@ settings! {
         /// Source of the first lead times (25): there at power-on, or written by the control computer.
         pub time_source: TimeSource = TimeSource::default();
         /// Lead time with which a step without one begins to learn; 0 for none.
-        pub seed_ms: f64 = 20.0, "whole CKs that a code has";
+        pub seed_ms: f64 = 20.0, within LEAD_RANGE_MS, "whole CKs that a code has";
         /// End of a positioning (26): the body has stood still, or `time_out_ms` after the control
         /// signal at the latest; with `fixed_time` always then.
         pub completion: Completion = Completion::default();
         /// Time that the position must stay for a positioning to be complete.
-        pub standstill_ms: f64 = 5.0, "1 to 65535 CKs";
+        pub standstill_ms: f64 = 5.0, within TIME_RANGE_MS, "1 to 65535 CKs";
         /// Time that a positioning may take after the control signal.
-        pub time_out_ms: f64 = 1000.0, "1 to 65535 CKs";
+        pub time_out_ms: f64 = 1000.0, within TIME_RANGE_MS, "1 to 65535 CKs";
         /// Pause between positionings.
-        pub rest_ms: f64 = 20.0, "1 to 65535 CKs";
+        pub rest_ms: f64 = 20.0, within TIME_RANGE_MS, "1 to 65535 CKs";
         /// Time over which the conventional compensator of Fig. 7 measures the speed.
-        pub speed_gate_ms: f64 = 5.0, "1 to 65535 CKs";
+        pub speed_gate_ms: f64 = 5.0, within TIME_RANGE_MS, "1 to 65535 CKs";
         /// Parameter by which it multiplies the speed (a).
-        pub speed_lead_ms: f64 = 25.0, "from 0";
+        pub speed_lead_ms: f64 = 25.0, within LEAD_RANGE_MS, "0 to 1990 CKs";
         /// Distance of each displaced switch from its target; without it as far as the first stop of
         /// its step is off.
-        pub switch_counts: Option<u32> = None, "less than any way";
+        pub switch_counts: Option<u32> = None, within 0..=SWITCH_MOST_COUNTS, "less than any way";
         /// Number of positionings.
         pub positionings: u32 = 24, in POSITIONINGS_RANGE;
         /// Number of positionings before the load changes; without it the load stays.
-        pub load_change_after: Option<u32> = None, "1 to positionings";
+        pub load_change_after: Option<u32> = None, within POSITIONINGS_RANGE, "1 to positionings";
     }
     flat {
         /// Resolver, if it is the detector.
@@ -339,13 +355,15 @@ impl Settings {
         let count = self.steps.len();
         if !STEPS_RANGE.contains(&count) {
             let (least, most) = STEPS_RANGE.into_inner();
-            let (value, allowed) = (format!("{count} steps"), format!("{least} to {most} steps"));
-            return Err(SettingError::value("step", value, allowed));
+            let problem = format!("{count} tables are given");
+            let allowed = format!("{least} to {most} tables [[step]]");
+            return Err(SettingError::new("step", problem, allowed));
         }
         if count == 1 && self.targets == Targets::Absolute && self.positionings > 1 {
             // From the second positioning on there would be no way to go.
-            let allowed = "2 to 16, or targets = \"relative\", or positionings = 1";
-            return Err(SettingError::value("step", "1 step", allowed));
+            let problem = "1 table is given";
+            let allowed = "2 to 16 tables [[step]], or targets = \"relative\", or positionings = 1";
+            return Err(SettingError::new("step", problem, allowed));
         }
         self.validate_detector()?;
         self.validate_form()?;
@@ -371,6 +389,7 @@ impl Settings {
         for ms in [self.speed_lead_ms].iter().chain(&self.speed_leads_ms) {
             within("speed_lead_ms", *ms, &(0.0..=longest))?;
         }
+        self.validate_torques()?;
         if let Some(counts) = self.switch_counts {
             let farthest = (0..count).map(|step| self.farthest_switch(step)).min();
             within("switch_counts", counts, &(0..=farthest.unwrap_or(0)))?;
@@ -381,6 +400,34 @@ impl Settings {
         if self.action == Action::Operate && self.completion == Completion::FixedTime {
             let allowed = "standstill with action = \"operate\": its effect is what it waits for";
             return Err(SettingError::value("completion", "fixed_time", allowed));
+        }
+        Ok(())
+    }
+
+    /// Friction and brake together, before the load change and after it, are a torque that the waves
+    /// hold.
+    fn validate_torques(&self) -> Result<(), SettingError> {
+        let (body, load) = (&self.body, &self.load);
+        let plain = Load::default();
+        for (load, fields) in [
+            (&plain, ["friction_nm", "brake_torque_nm"]),
+            (load, ["load_friction_factor", "load_brake_factor"]),
+        ] {
+            let friction = body.friction_nm * load.load_friction_factor;
+            let brake = body.brake_torque_nm * load.load_brake_factor;
+            let total = friction + brake;
+            if total > MOST_TORQUE_NM {
+                let (field, value, own) = match (friction > brake, load == &plain) {
+                    (true, true) => (fields[0], body.friction_nm, friction),
+                    (true, false) => (fields[0], load.load_friction_factor, friction),
+                    (false, true) => (fields[1], body.brake_torque_nm, brake),
+                    (false, false) => (fields[1], load.load_brake_factor, brake),
+                };
+                let most = (MOST_TORQUE_NM - (total - own)) / (own / value);
+                let problem = format!("is {value}: friction and brake are {total} N·m");
+                let allowed = format!("{most} at most: {MOST_TORQUE_NM} N·m together");
+                return Err(SettingError::new(field, problem, allowed));
+            }
         }
         Ok(())
     }
@@ -410,6 +457,12 @@ impl Settings {
         }
         let unit = SPEED_UNIT_COUNTS_PER_S;
         let fastest = self.fastest_counts_per_s();
+        if fastest < unit {
+            let followed = self.followed_counts_per_s();
+            let problem = format!("is {speed}, and the detector follows {followed} at most");
+            let allowed = format!("{unit} or more, at a faster clock or with a finer detector");
+            return Err(SettingError::new("speed_counts_per_s", problem, allowed));
+        }
         if !(unit..=fastest).contains(&speed) || !speed.is_multiple_of(unit) {
             let allowed = format!("{unit} to {fastest}, a multiple of {unit}");
             return Err(SettingError::value("speed_counts_per_s", speed, allowed));

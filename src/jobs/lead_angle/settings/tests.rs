@@ -50,15 +50,15 @@ fn what_is_out_of_range_is_named_with_what_is_allowed() {
         (|s| s.ck_ticks = 3, "ck_ticks: is 3; allowed: 4 to 16777215"),
         (
             |s| s.steps.truncate(1),
-            "step: is 1 step; allowed: 2 to 16, or targets = \"relative\", or positionings = 1",
+            "step: 1 table is given; allowed: 2 to 16 tables [[step]], or targets = \"relative\", or positionings = 1",
         ),
         (
             |s| s.steps = s.steps.repeat(9),
-            "step: is 18 steps; allowed: 1 to 16 steps",
+            "step: 18 tables are given; allowed: 1 to 16 tables [[step]]",
         ),
         (
             |s| s.steps.clear(),
-            "step: is 0 steps; allowed: 1 to 16 steps",
+            "step: 0 tables are given; allowed: 1 to 16 tables [[step]]",
         ),
         (
             |s| s.targets = Targets::Relative,

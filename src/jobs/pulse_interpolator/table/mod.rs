@@ -24,5 +24,5 @@ pub use following::{PathSteps, UnitDemand, UnitErrors, demanded, follow};
 pub use packed::UnitWords;
 pub use report::{AxisReport, FollowingError, Remedy, Report};
 pub use scale::{AxisScaling, Ratio, Scaled};
-pub use settings::{Settings, StepTiming, WIDTH_RANGE};
+pub use settings::{Settings, StepTiming, UNIT_RANGE_TICKS, WIDTH_RANGE};
 pub use words::{MAX_UNITS, Pattern, Table, Word};

@@ -37,6 +37,21 @@ pub fn read_path(path: &Path, clock_hz: u64) -> Result<Table, Fault> {
     read(&path.display().to_string(), &text, clock_hz)
 }
 
+/// Returns the names of the columns, and the axes that they are for.
+fn names(header: &str) -> (Vec<&str>, usize) {
+    let names = header.split(',').map(str::trim);
+    let names: Vec<_> = names.take(3 + 2 * AXES_MAX).collect();
+    let axes = names.len().saturating_sub(2) / 2;
+    (names, axes)
+}
+
+/// Returns true for the header of a table.
+#[must_use]
+pub fn is_header(line: &str) -> bool {
+    let (names, axes) = names(line.trim_start_matches('\u{feff}'));
+    (1..=AXES_MAX).contains(&axes) && names == columns(axes)
+}
+
 /// Parses a table; faults name the file `file`.
 ///
 /// # Errors
@@ -50,10 +65,8 @@ pub fn read(file: &str, text: &str, clock_hz: u64) -> Result<Table, Fault> {
     let Some((header, number)) = lines.next() else {
         return Err(Fault::new(file, 0, "header", "missing", header_allowed()));
     };
-    let names = header.split(',').map(str::trim);
-    let names: Vec<_> = names.take(3 + 2 * AXES_MAX).collect();
-    let axes = names.len().saturating_sub(2) / 2;
-    if !(1..=AXES_MAX).contains(&axes) || names != columns(axes) {
+    let (names, axes) = names(header);
+    if !is_header(header) {
         let problem = format!("is {header}");
         return Err(Fault::new(
             file,

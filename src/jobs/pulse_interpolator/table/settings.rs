@@ -11,18 +11,23 @@ use std::ops::RangeInclusive;
 /// word keeps one of its 32 bits for the direction.
 pub const WIDTH_RANGE: RangeInclusive<u32> = 2..=31;
 
+/// Unit times that the words of a full-size memory hold, in ticks.
+pub const UNIT_RANGE_TICKS: RangeInclusive<u32> = 2..=3 * ((1 << HALF_PERIOD_BITS) - 1);
+/// Width of the half-period in the memory word, in bits.
+const HALF_PERIOD_BITS: u32 = 16;
+
 settings! {
     /// Timing that the motor driver requires of its step and direction inputs, in reference ticks.
     #[derive(Copy, Eq)]
     pub struct StepTiming {
         /// Shortest high time of the step line.
-        pub step_high_ticks: u32 = 2, "up to half of a unit time";
+        pub step_high_ticks: u32 = 2, within 0..=*UNIT_RANGE_TICKS.end() / 2, "up to half of a unit time";
         /// Shortest low time of the step line.
-        pub step_low_ticks: u32 = 2, "what a unit time leaves beside the high time";
+        pub step_low_ticks: u32 = 2, within 0..=*UNIT_RANGE_TICKS.end(), "what a unit time leaves beside the high time";
         /// Shortest time from a change of the direction line to the next step.
-        pub dir_setup_ticks: u32 = 5, "what a unit time leaves beside the high time";
+        pub dir_setup_ticks: u32 = 5, within 0..=*UNIT_RANGE_TICKS.end(), "what a unit time leaves beside the high time";
         /// Shortest time from a step to a change of the direction line.
-        pub dir_hold_ticks: u32 = 5, "up to a unit time";
+        pub dir_hold_ticks: u32 = 5, within 0..=*UNIT_RANGE_TICKS.end(), "up to a unit time";
     }
 }
 
@@ -68,7 +73,7 @@ impl Default for Settings {
             motion: MotionLimits::default(),
             line_unit_ticks: 1000,
             arc_unit_ticks: 1000,
-            half_period_bits: 16,
+            half_period_bits: HALF_PERIOD_BITS,
             period_bits: 24,
             timing: StepTiming::default(),
         }
@@ -84,9 +89,9 @@ impl Settings {
     pub fn validate(&self) -> Result<(), SettingError> {
         within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
         if !(1..=COORDINATES).contains(&self.steps_per_mm.len()) {
-            let value = format!("{} axes", self.steps_per_mm.len());
-            let allowed = format!("1 to {COORDINATES} axes");
-            return Err(SettingError::value("steps_per_mm", value, allowed));
+            let problem = format!("has {} numbers", self.steps_per_mm.len());
+            let allowed = format!("1 to {COORDINATES} numbers, one for each axis");
+            return Err(SettingError::new("steps_per_mm", problem, allowed));
         }
         for (value, name) in self.steps_per_mm.iter().zip(AXIS_NAMES) {
             if !COUNTS_PER_MM_RANGE.contains(&value.abs()) {
@@ -169,11 +174,11 @@ mod tests {
             ),
             (
                 refusal(|s| s.steps_per_mm.clear()),
-                "steps_per_mm: is 0 axes; allowed: 1 to 3 axes",
+                "steps_per_mm: has 0 numbers; allowed: 1 to 3 numbers, one for each axis",
             ),
             (
                 refusal(|s| s.steps_per_mm = vec![1.0; 4]),
-                "steps_per_mm: is 4 axes",
+                "steps_per_mm: has 4 numbers",
             ),
             (
                 refusal(|s| s.steps_per_mm[1] = 0.0),
