@@ -48,6 +48,7 @@ mod refusals;
 mod runs;
 mod scenarios;
 mod series;
+mod series_ticks;
 mod settings;
 #[cfg(unix)]
 mod signals;
