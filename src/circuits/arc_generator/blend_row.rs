@@ -44,7 +44,7 @@ signals! { for BlendRow as c;
     pub struct In {
         /// Word of a record.
         pub record: RecordWord(&c.widths.data) as Flat,
-        /// A pass begins.
+        /// A pass begins: the sum is cleared.
         pub copy: Bit,
         /// The current bit is a fraction bit.
         pub fraction: Bit,
@@ -57,15 +57,15 @@ signals! { for BlendRow as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// 2(A − A⁻); for a line, the distance over its whole length.
+        /// On a blend, 2(A − A⁻); on a line, the distance from its start to its end.
         slope: I(c.term()) = 0,
         /// S = A⁻ − 2A + A⁺; 0 for a line.
         bend: I(c.term()) = 0,
         /// Coordinate of the vector from A⁻ to the point.
         pub offset: I(c.widths.point) as Analog = 0,
-        /// Partial sum of the products, in units of the next bit's weight.
+        /// Partial sum of the products, scaled to the weight of the next bit.
         sum: I(c.sum()) = 0,
-        /// Bit below the sum: one half.
+        /// Last bit shifted out of the sum; its weight is one half.
         half: Bit = 0,
     }
     /// Nets.
@@ -78,7 +78,7 @@ signals! { for BlendRow as c;
         total: I(c.sum()),
         /// Sum plus the rounding term.
         raised: I(c.sum()),
-        /// Coordinate, rounded to the nearest, halves up.
+        /// Coordinate, rounded to the nearest; halves round up.
         rounded: I(c.widths.point),
     }
 }

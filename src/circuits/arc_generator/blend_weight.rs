@@ -58,9 +58,9 @@ signals! { for BlendWeight as c;
         factor: U(c.coefficient) as Hex = 0,
         /// Remaining bits of the multiplier: h, then 2h − u. In the third pass: of the weight.
         bits: U(c.coefficient) as Hex = 0,
-        /// Partial product, in units of the next bit's weight.
+        /// Partial product, scaled to the weight of the next bit.
         sum: U(c.coefficient) = 0,
-        /// Bit below the sum: one half.
+        /// Last bit shifted out of the sum; its weight is one half.
         half: Bit = 0,
         /// The new point is valid in this tick.
         pub done: Bit = 0,

@@ -65,9 +65,9 @@ signals! { for MatrixElement as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// Partial sum of the products, in units of the next bit's weight.
+        /// Partial sum of the products, scaled to the weight of the next bit.
         sum: I(c.sum()) = 0,
-        /// Bit below the sum: one half.
+        /// Last bit shifted out of the sum; its weight is one half.
         half: Bit = 0,
     }
     /// Nets.
@@ -78,7 +78,7 @@ signals! { for MatrixElement as c;
         term_turn: I(c.sum()),
         /// Sum or difference of the two terms.
         addend: I(c.sum()),
-        /// Sum plus `addend` at the weight of the current bit.
+        /// `sum` plus `addend`, or minus twice `addend` at the sign bit.
         total: I(c.sum()),
         /// Sum plus the rounding term.
         raised: I(c.sum()),

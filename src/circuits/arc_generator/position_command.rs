@@ -59,7 +59,7 @@ signals! { for PositionCommand as c;
         point: I(c.widths.point) as Analog,
         /// Coordinate with its guard bits plus half a count.
         raised: I(c.widths.point),
-        /// Coordinate, rounded to the nearest count, halves up.
+        /// Coordinate, rounded to the nearest count; halves round up.
         nearest: I(c.widths.position),
     }
 }

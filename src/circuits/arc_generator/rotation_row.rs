@@ -90,9 +90,9 @@ signals! { for (RotationRow, VectorRow) as c;
         bits_y: U(c.widths.coefficient) as Hex = 0,
         /// Remaining bits of the coefficient of z.
         bits_z: U(c.widths.coefficient) as Hex = 0,
-        /// Partial sum of the products, in units of the next bit's weight.
+        /// Partial sum of the products, scaled to the weight of the next bit.
         sum: I(c.sum()) = 0,
-        /// Bit below the sum: one half.
+        /// Last bit shifted out of the sum; its weight is one half.
         half: Bit = 0,
     }
     /// Nets, also those of a [row of a matrix that changes](super::vector_row).
@@ -105,11 +105,11 @@ signals! { for (RotationRow, VectorRow) as c;
         term_z: I(c.sum()),
         /// Sum of the three terms.
         addend: I(c.sum()),
-        /// Sum plus `addend` at the weight of the current bit.
+        /// `sum` plus `addend`, or minus twice `addend` at the sign bit.
         total: I(c.sum()),
         /// Sum plus the rounding term.
         raised: I(c.sum()),
-        /// Coordinate of the new point.
+        /// New coordinate, rounded.
         pub(super) rounded: I(c.widths.point),
     }
 }

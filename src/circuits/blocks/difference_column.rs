@@ -83,7 +83,7 @@ signals! { for DifferenceColumn as c;
         load_whole: Bit,
         /// The record word is the part of this column.
         load_part: Bit,
-        /// Number, rounded to the nearest integer, halves up.
+        /// Number, rounded to the nearest integer; halves round up.
         pub nearest: I(c.widths.whole) as Analog,
     }
 }

@@ -76,7 +76,7 @@ signals! { for DifferenceEngine as c;
     }
     /// Output port.
     pub struct Net {
-        /// Coordinate, rounded to the nearest integer, halves up.
+        /// Coordinate, rounded to the nearest integer; halves round up.
         pub nearest: I(c.widths.whole) as Analog,
     }
 }

@@ -129,7 +129,7 @@ signals! { for usize as data;
     }
     /// Word of a record on its way to the blocks; `data` is its width.
     pub struct RecordWord {
-        /// `data` is word `word` of a record.
+        /// A record word is in `data`, and its number is in `word`.
         pub load: Bit,
         /// Number of the word in `data`.
         pub word: U(5),

@@ -55,7 +55,7 @@ signals! { for Scaler as c;
         factor: U(c.value) = 0,
         /// Remaining bits of the gain.
         bits: U(c.gain) as Hex = 0,
-        /// Partial product, in units of the next bit's weight; at the end the result.
+        /// Partial product, scaled to the weight of the next bit; at the end the result.
         pub scaled: U(c.value) = 0,
         /// High for one tick: `scaled` is valid from this tick until the next start.
         pub done: Bit = 0,

@@ -133,9 +133,9 @@ signals! { for CircularInterpolator as c;
         raised_along: I(c.radius() + 2),
         /// Second coordinate plus half a step, rounded down to whole steps.
         raised_across: I(c.radius() + 2),
-        /// First coordinate of the point, rounded to whole steps, halves up.
+        /// First coordinate of the point, rounded to whole steps; halves round up.
         rounded_along: I(c.controller.widths.distance + 1),
-        /// Second coordinate of the point, rounded to whole steps, halves up.
+        /// Second coordinate of the point, rounded to whole steps; halves round up.
         rounded_across: I(c.controller.widths.distance + 1),
         /// Move for the motor controller.
         pub next_order: Move(&c.controller),

@@ -43,7 +43,7 @@ impl CommandPort {
 signals! { for CommandPort as c;
     /// Input ports.
     pub struct In {
-        /// Gives a command: `base` to `period` are valid.
+        /// Gives the command that the ports `base` to `period` hold.
         pub valid: Bit,
         /// First address of the pattern.
         pub base: U(c.address) as Hex,
@@ -56,7 +56,7 @@ signals! { for CommandPort as c;
         /// High: the command is taken at the next RST; low: at the RST that ends the running
         /// pattern.
         pub now: Bit,
-        /// Unit time in ticks, in force from the RST that takes the command.
+        /// Unit time in ticks; applies from the RST at which the command is taken.
         pub period: U(c.period),
         /// The waiting command is taken at the end of this tick.
         pub take: Bit,
@@ -81,7 +81,7 @@ signals! { for CommandPort as c;
     }
     /// Nets.
     pub struct Net {
-        /// Ready: a command without `now` is accepted.
+        /// No command is waiting, so one without `now` is accepted.
         pub ready: Bit,
         /// A command is accepted.
         accept: Bit,

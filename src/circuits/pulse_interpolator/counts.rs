@@ -8,7 +8,7 @@ use std::ops::RangeInclusive;
 
 /// Pulses (rising edges) in a unit time of `period` ticks: `floor((floor((T-1)/n)+1)/2)`.
 ///
-/// The result is (T-1)/2n rounded to the nearest integer, halves up.
+/// The result is (T-1)/2n rounded to the nearest integer; halves round up.
 #[must_use]
 pub fn pulses(half_period: u32, period: u32) -> u32 {
     let toggles = period

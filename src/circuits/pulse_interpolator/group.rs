@@ -141,7 +141,7 @@ signals! { for Group as c;
         pub dir: [Bit; c.axes] as Elements(DIR),
         /// RST: high in the last tick of the unit time.
         pub unit_rst: Bit,
-        /// Ready: a command without `now` is accepted.
+        /// No command is waiting, so one without `now` is accepted.
         pub ready: Bit,
         /// A pattern is running.
         pub busy: Bit,

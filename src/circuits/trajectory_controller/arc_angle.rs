@@ -63,7 +63,7 @@ signals! { for ArcAngle as c;
         factor: U(c.widths.product()) = 0,
         /// Remaining bits of the curvature.
         bits: U(c.widths.curvature) as Hex = 0,
-        /// Partial product, in units of the next bit's weight.
+        /// Partial product, scaled to the weight of the next bit.
         product: U(c.widths.product()) = 0,
         /// Angle in units of 2^−H turn; valid from `done` on.
         pub angle: U(c.widths.angle) as Analog = 0,

@@ -79,7 +79,7 @@ signals! { for AxisRow as c;
         bits_across: U(c.widths.coefficient) as Hex = 0,
         /// Remaining bits of the coefficient of `third`.
         bits_third: U(c.widths.coefficient) as Hex = 0,
-        /// Partial sum of the products, in units of the next bit's weight.
+        /// Partial sum of the products, scaled to the weight of the next bit.
         sum: I(c.widths.sum()) = 0,
         /// Coordinate of the point, in guard units.
         pub point: I(c.widths.point) as Analog = 0,
@@ -94,7 +94,7 @@ signals! { for AxisRow as c;
         term_third: I(c.widths.sum()),
         /// Sum of the three terms.
         addend: I(c.widths.sum()),
-        /// Sum plus `addend` at the weight of the current bit.
+        /// `sum` plus `addend`, or minus twice `addend` at the sign bit.
         total: I(c.widths.sum()),
         /// Sum plus half a guard unit.
         raised: I(c.widths.sum()),

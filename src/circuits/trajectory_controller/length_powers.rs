@@ -59,7 +59,7 @@ signals! { for LengthPowers as c;
         /// Multiplicand, with R − P bits below the guard unit: the offset, then the square, also
         /// from `done` on.
         pub factor: U(c.widths.radius) as Analog = 0,
-        /// Partial product, in units of the next bit's weight; the cube from `done` on.
+        /// Partial product, scaled to the weight of the next bit; the cube from `done` on.
         pub product: U(c.widths.radius) as Analog = 0,
         /// Square and cube are valid in this tick.
         pub done: Bit = 0,

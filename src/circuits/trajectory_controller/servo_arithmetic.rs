@@ -190,7 +190,7 @@ signals! { for ServoArithmetic as c;
         held: I(c.widths.product()),
         /// 31: sum of all parts, with FINE bits below the torque's lowest bit.
         whole: I(c.widths.product()),
-        /// `whole`, rounded to the nearest torque word, halves up.
+        /// `whole`, rounded to the nearest torque word; halves round up.
         wanted: I(c.widths.product()),
         /// Largest torque.
         most: I(c.widths.product()),
