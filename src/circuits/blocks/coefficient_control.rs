@@ -97,14 +97,17 @@ impl Specified for CoefficientControl {
     fn invariants(&self) -> Invariants<'_, Self> {
         let bits = self.coefficient as u64;
         Invariants::<Self>::new()
-            .step("a step is taken where none is under way", |now, next| {
-                let taken = now.i.step && !now.i.halt && !now.q.busy;
-                let begins = next.q.busy && next.q.bit_index == 0 && now.w.copy;
-                require(taken == begins, ["busy", "bit_index", "copy"], || {
-                    "not so".into()
-                })
-            })
-            .step("halt ends it", |now, next| {
+            .step(
+                "a step begins if and only if step is high, none is running, and halt is low",
+                |now, next| {
+                    let taken = now.i.step && !now.i.halt && !now.q.busy;
+                    let begins = next.q.busy && next.q.bit_index == 0 && now.w.copy;
+                    require(taken == begins, ["busy", "bit_index", "copy"], || {
+                        "not so".into()
+                    })
+                },
+            )
+            .step("halt ends a step", |now, next| {
                 let right = !next.q.busy && !next.q.done;
                 require(right || !now.i.halt, ["busy", "done"], || "goes on".into())
             })
@@ -118,23 +121,26 @@ impl Specified for CoefficientControl {
                     format!("{after:?} after {bit}")
                 })
             })
-            .step("done where a step ends, nowhere else", |now, next| {
+            .step("done comes only at the end of a step", |now, next| {
                 let right = next.q.done <= now.q.busy;
                 require(right, ["done"], || "without a step".into())
             })
-            .always("fraction, a one, the sign, then the point", move |now| {
-                let (bit, w) = (now.q.bit_index, now.w);
-                let kinds = [w.fraction, w.top, w.commit];
-                let count = kinds.iter().filter(|kind| **kind).count();
-                let expected = match now.q.busy {
-                    false => [false; 3],
-                    true => [bit + 2 < bits, bit + 1 == bits, bit == bits && !now.i.halt],
-                };
-                require(
-                    kinds == expected && count <= 1,
-                    ["fraction", "top", "commit"],
-                    || format!("bit {bit}"),
-                )
-            })
+            .always(
+                "the fraction bits come first, then the bit of weight one, the sign and commit",
+                move |now| {
+                    let (bit, w) = (now.q.bit_index, now.w);
+                    let kinds = [w.fraction, w.top, w.commit];
+                    let count = kinds.iter().filter(|kind| **kind).count();
+                    let expected = match now.q.busy {
+                        false => [false; 3],
+                        true => [bit + 2 < bits, bit + 1 == bits, bit == bits && !now.i.halt],
+                    };
+                    require(
+                        kinds == expected && count <= 1,
+                        ["fraction", "top", "commit"],
+                        || format!("bit {bit}"),
+                    )
+                },
+            )
     }
 }

@@ -132,44 +132,54 @@ impl Specified for DifferenceColumn {
     fn invariants(&self) -> Invariants<'_, Self> {
         let Widths { whole, part, .. } = self.widths;
         Invariants::<Self>::new()
-            .step("a step adds the column below, exactly", move |now, next| {
-                let modulus = now.i.modulus as i64;
-                let number = |whole: i64, part: u64| whole * modulus + part as i64;
-                let sum = number(now.q.whole, now.q.part) + number(now.i.by_whole, now.i.by_part);
-                let after = number(next.q.whole, next.q.part);
-                let right = (after - sum).rem_euclid(modulus << whole) == 0;
-                let steps = now.i.step && !now.i.record.load;
-                require(right || !steps, ["whole", "part"], || {
-                    format!("{after} / {modulus}, not {sum} / {modulus}")
-                })
-            })
+            .step(
+                "a step adds the number of the column below without an error",
+                move |now, next| {
+                    let modulus = now.i.modulus as i64;
+                    let number = |whole: i64, part: u64| whole * modulus + part as i64;
+                    let sum =
+                        number(now.q.whole, now.q.part) + number(now.i.by_whole, now.i.by_part);
+                    let after = number(next.q.whole, next.q.part);
+                    let right = (after - sum).rem_euclid(modulus << whole) == 0;
+                    let steps = now.i.step && !now.i.record.load;
+                    require(right || !steps, ["whole", "part"], || {
+                        format!("{after} / {modulus}, not {sum} / {modulus}")
+                    })
+                },
+            )
             .step("the part stays below the modulus", |now, next| {
                 let right = next.q.part < now.i.modulus;
                 require(right || now.w.load_part, ["part"], || "too large".into())
             })
-            .step("its words are loaded, others are not", move |now, next| {
-                let record = &now.i.record;
-                let word = record.load.then_some(record.word);
-                let (mut expected, mut parts) = (now.q.whole, now.q.part);
-                if word == Some(self.whole_word) {
-                    (expected, parts) = (record.data as i64, 0);
-                } else if word.is_some() && word == self.part_word {
-                    parts = record.data;
-                }
-                let right = (next.q.whole - expected).rem_euclid(1 << whole) == 0
-                    && next.q.part == parts % (1 << part);
-                require(right || now.i.step, ["whole", "part"], || {
-                    format!("not {expected} and {parts}")
-                })
-            })
-            .always("the nearest whole is within a half", move |now| {
-                let modulus = now.i.modulus as i64;
-                let part = now.q.part as i64;
-                let up = (now.w.nearest - now.q.whole).rem_euclid(1 << whole);
-                let doubled = 2 * (up * modulus - part);
-                let right = -modulus < doubled && doubled <= modulus;
-                require(right, ["nearest"], || format!("{up} above the whole"))
-            })
+            .step(
+                "the column loads its own words and no others",
+                move |now, next| {
+                    let record = &now.i.record;
+                    let word = record.load.then_some(record.word);
+                    let (mut expected, mut parts) = (now.q.whole, now.q.part);
+                    if word == Some(self.whole_word) {
+                        (expected, parts) = (record.data as i64, 0);
+                    } else if word.is_some() && word == self.part_word {
+                        parts = record.data;
+                    }
+                    let right = (next.q.whole - expected).rem_euclid(1 << whole) == 0
+                        && next.q.part == parts % (1 << part);
+                    require(right || now.i.step, ["whole", "part"], || {
+                        format!("not {expected} and {parts}")
+                    })
+                },
+            )
+            .always(
+                "the nearest integer differs from the number by at most a half",
+                move |now| {
+                    let modulus = now.i.modulus as i64;
+                    let part = now.q.part as i64;
+                    let up = (now.w.nearest - now.q.whole).rem_euclid(1 << whole);
+                    let doubled = 2 * (up * modulus - part);
+                    let right = -modulus < doubled && doubled <= modulus;
+                    require(right, ["nearest"], || format!("{up} above the whole"))
+                },
+            )
     }
 
     /// A word that is not the column's, does not differ from another such.

@@ -153,7 +153,7 @@ impl Circuit for MulDiv {
 impl Specified for MulDiv {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
-            .step("a start is taken unless one is under way", |now, next| {
+            .step("a start in idle begins an operation", |now, next| {
                 let taken = now.i.start && now.q.state == IDLE;
                 let restarted = next.q.state == MULTIPLY && next.q.count == 0;
                 let begins = restarted && next.q.quotient == now.i.addend;
@@ -162,7 +162,7 @@ impl Specified for MulDiv {
                 })
             })
             .step(
-                "it multiplies for M ticks and divides for Q",
+                "a multiplication takes a tick per multiplier bit, a division a tick per word bit",
                 |now, next| {
                     let length = match now.q.state {
                         MULTIPLY => self.multiplier,
@@ -176,7 +176,7 @@ impl Specified for MulDiv {
                 },
             )
             .step(
-                "done stands for one tick, when the last bit is made",
+                "done is high only in the tick after the last bit",
                 |now, next| {
                     let ended = now.q.state != IDLE && next.q.state == IDLE;
                     require(next.q.done == ended, ["done"], || "at a wrong time".into())
@@ -187,7 +187,7 @@ impl Specified for MulDiv {
                 require(right, ["remainder", "by"], || "too large".into())
             })
             .step(
-                "what was divided so far is quotient times divisor plus remainder",
+                "the bits divided so far equal quotient times divisor plus remainder",
                 |now, next| {
                     // The bits of the dividend that are in: those above, and the quotient's below.
                     let known = |q: &Reg<Value>, bits: u64| {

@@ -193,14 +193,17 @@ impl Specified for RecordSequencer {
     fn invariants(&self) -> Invariants<'_, Self> {
         let begins = |q: &Reg<Value>, next: &Reg<Value>| q.state == IDLE && next.state == FETCH;
         Invariants::<Self>::new()
-            .step("state after state as described", |now, next| {
-                let expected = after(now.q, now.i, self.waits).unwrap_or(now.q.state);
-                require(next.q.state == expected, ["state"], || {
-                    format!("not {}", STATES[expected as usize])
-                })
-            })
             .step(
-                "a point is made for every step, and counted",
+                "every transition is one of the table of states",
+                |now, next| {
+                    let expected = after(now.q, now.i, self.waits).unwrap_or(now.q.state);
+                    require(next.q.state == expected, ["state"], || {
+                        format!("not {}", STATES[expected as usize])
+                    })
+                },
+            )
+            .step(
+                "each step requests one point and decrements the remaining samples",
                 |now, next| {
                     let header = now.i.record.load && now.i.record.word == 0;
                     let steps = now.q.state == STEP && !now.i.halt;
@@ -216,7 +219,7 @@ impl Specified for RecordSequencer {
                 },
             )
             .step(
-                "a command with a sample where the point is ready, nowhere else",
+                "a point becomes the command if and only if a sample comes while it is ready",
                 |now, next| {
                     let due = now.i.sample && now.q.state == READY && !now.i.halt;
                     let right = now.see(|s| s.w.present) == due && next.q.sampled == due;
@@ -224,7 +227,7 @@ impl Specified for RecordSequencer {
                 },
             )
             .step(
-                "a record is taken where a fetch begins, and only there",
+                "take is high in the first tick of a fetch, and only there",
                 |now, next| {
                     let fetches = next.q.state == FETCH && now.q.state != FETCH;
                     require(next.q.take == fetches, ["take", "state"], || {
@@ -233,7 +236,7 @@ impl Specified for RecordSequencer {
                 },
             )
             .step(
-                "a path's first point is first until it becomes the command",
+                "first is high from a path's beginning until its first point becomes the command",
                 move |now, next| {
                     let kept = now.q.first && !next.q.sampled;
                     let expected = begins(now.q, &next.q) || kept;
@@ -243,7 +246,7 @@ impl Specified for RecordSequencer {
                 },
             )
             .step(
-                "late: a sample came while the next point was made",
+                "late is set if a sample comes while the next point is being computed",
                 move |now, next| {
                     let making = [FETCH, STEP, ROTATE].contains(&now.q.state);
                     let missed = now.i.sample && !now.i.halt && making && !now.q.first;
@@ -254,7 +257,7 @@ impl Specified for RecordSequencer {
                 },
             )
             .step(
-                "starved: it became idle without rest and without halt",
+                "starved is set if the sequencer becomes idle without a rest and without a halt",
                 move |now, next| {
                     let idles = now.q.state != IDLE && next.q.state == IDLE;
                     let moving = idles && !now.i.halt && !now.q.rests;
@@ -265,7 +268,7 @@ impl Specified for RecordSequencer {
                 },
             )
             .step(
-                "words 0 and 1 of a record are header and modulus",
+                "words 0 and 1 of a record load the header and the modulus",
                 |now, next| {
                     let word = now.i.record.load.then_some(now.i.record.word);
                     let data = now.i.record.data;

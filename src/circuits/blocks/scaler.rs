@@ -113,16 +113,19 @@ impl Circuit for Scaler {
 impl Specified for Scaler {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
-            .step("a start is taken unless one is under way", |now, next| {
-                let taken = now.i.start && !now.q.busy && !now.i.clear;
-                let begun = next.q.busy && next.q.bit_index == 0;
-                let begun = begun && next.q.factor == now.i.value && next.q.bits == now.i.gain;
-                require(!taken || begun, ["busy", "factor", "bits"], || {
-                    "not begun".into()
-                })
-            })
             .step(
-                "every bit of the gain comes once, done after the last",
+                "a start begins a product unless one is running or clear is high",
+                |now, next| {
+                    let taken = now.i.start && !now.q.busy && !now.i.clear;
+                    let begun = next.q.busy && next.q.bit_index == 0;
+                    let begun = begun && next.q.factor == now.i.value && next.q.bits == now.i.gain;
+                    require(!taken || begun, ["busy", "factor", "bits"], || {
+                        "not begun".into()
+                    })
+                },
+            )
+            .step(
+                "each bit of the gain is used once, and done follows the last one",
                 |now, next| {
                     let bit = now.q.bit_index;
                     let over = bit + 1 == self.gain as u64;
@@ -136,7 +139,7 @@ impl Specified for Scaler {
                     })
                 },
             )
-            .always("the product so far fits", |now| {
+            .always("the partial product is at most twice the value", |now| {
                 let right = now.q.scaled <= 2 * now.q.factor;
                 require(right, ["scaled"], || "too large".into())
             })

@@ -71,13 +71,16 @@ impl Circuit for Shifter {
 
 impl Specified for Shifter {
     fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new().always("it is the quotient, rounded down", |now| {
-            let divisor = 1i128 << now.i.by;
-            let expected = i128::from(now.i.word).div_euclid(divisor);
-            let shifted = i128::from(now.w.shifted);
-            require(shifted == expected, ["shifted"], || {
-                format!("not {expected}")
-            })
-        })
+        Invariants::<Self>::new().always(
+            "the result is the word divided by 2^by, rounded down",
+            |now| {
+                let divisor = 1i128 << now.i.by;
+                let expected = i128::from(now.i.word).div_euclid(divisor);
+                let shifted = i128::from(now.w.shifted);
+                require(shifted == expected, ["shifted"], || {
+                    format!("not {expected}")
+                })
+            },
+        )
     }
 }

@@ -73,12 +73,15 @@ impl Circuit for LengthClamp {
 
 impl Specified for LengthClamp {
     fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new().always("it is on the path, and the length where that is", |now| {
-            let end = now.i.path_end;
-            let less = now.i.length - self.back as i64;
-            let expected = less.clamp(0, end.max(0)) as u64;
-            let right = end < 0 || now.w.clamped == expected;
-            require(right, ["clamped"], || format!("not {expected}"))
-        })
+        Invariants::<Self>::new().always(
+            "the result is the length less `back`, limited to the path",
+            |now| {
+                let end = now.i.path_end;
+                let less = now.i.length - self.back as i64;
+                let expected = less.clamp(0, end.max(0)) as u64;
+                let right = end < 0 || now.w.clamped == expected;
+                require(right, ["clamped"], || format!("not {expected}"))
+            },
+        )
     }
 }

@@ -82,7 +82,7 @@ impl Specified for PathLength {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step(
-                "the length is the profile's last, but for one that comes with restart",
+                "the length is the profile's latest, except one in the tick of restart",
                 |now, next| {
                     let expected = match now.i.present && !now.i.restart {
                         true => now.i.profile,
@@ -93,7 +93,7 @@ impl Specified for PathLength {
                 },
             )
             .step(
-                "there is no path from power-on or restart to the first length",
+                "after power-on or restart, a path begins with the first length",
                 |now, next| {
                     let without = now.q.waiting;
                     let (waits, first) = match (now.i.restart, now.i.present) {
@@ -108,7 +108,7 @@ impl Specified for PathLength {
                 },
             )
             .step(
-                "two ticks after its beginning a period is one with a length, or one without a path",
+                "two ticks after a period begins, fresh is high if there is a path, otherwise held",
                 |now, next| {
                     let due = match now.q.begun {
                         true => [!next.q.waiting, next.q.waiting],

@@ -123,7 +123,7 @@ impl Specified for PeriodJoin {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step(
-                "correct once both stand and the wait is over, once a period",
+                "correct comes once a period, after reference, responses and the wait",
                 |now, next| {
                     let (q, i) = (&now.q, &now.i);
                     let left = (q.refers && !i.referred) || (q.answers && !i.answered);
@@ -144,7 +144,7 @@ impl Specified for PeriodJoin {
                 },
             )
             .step(
-                "ticks are counted from a period's beginning to the wait",
+                "the count is the number of ticks since the period began, up to the wait",
                 |now, next| {
                     let due = match now.i.begins || now.i.held {
                         true => 0,
@@ -153,16 +153,19 @@ impl Specified for PeriodJoin {
                     require(next.q.count == due, ["count"], || format!("not {due}"))
                 },
             )
-            .step("both are awaited from a period's beginning", |now, next| {
-                let right = next.q.refers && next.q.answers && next.q.busy;
-                require(
-                    right || !now.i.begins,
-                    ["refers", "answers", "busy"],
-                    || "not awaited".into(),
-                )
-            })
             .step(
-                "the first point of a path presets, every point is stepped to",
+                "from the beginning of a period, reference and responses are awaited",
+                |now, next| {
+                    let right = next.q.refers && next.q.answers && next.q.busy;
+                    require(
+                        right || !now.i.begins,
+                        ["refers", "answers", "busy"],
+                        || "not awaited".into(),
+                    )
+                },
+            )
+            .step(
+                "the first point of a path presets the responses, and every point advances them",
                 |now, next| {
                     let due = [now.i.placed && now.q.first, now.i.placed];
                     let seen = [next.q.preset, next.q.step];
@@ -170,7 +173,7 @@ impl Specified for PeriodJoin {
                 },
             )
             .step(
-                "the first point is awaited from power-on and clear to it",
+                "after power-on and after clear, the first point is awaited",
                 |now, next| {
                     let due = match (now.i.clear, now.i.placed) {
                         (true, _) => true,
@@ -179,15 +182,21 @@ impl Specified for PeriodJoin {
                     require(next.q.first == due, ["first"], || format!("not {due}"))
                 },
             )
-            .step("a period is under way to its torques", |now, next| {
-                let begins = now.i.begins || now.i.held;
-                let due = begins || (now.q.busy && !now.i.driven);
-                require(next.q.busy == due, ["busy"], || format!("not {due}"))
-            })
-            .step("late: a period begins in another", |now, next| {
-                let clashes = (now.i.begins || now.i.held) && now.q.busy;
-                let due = clashes || (now.q.late && !now.i.clear);
-                require(next.q.late == due, ["late"], || format!("not {due}"))
-            })
+            .step(
+                "a period is busy from its beginning until its torques are valid",
+                |now, next| {
+                    let begins = now.i.begins || now.i.held;
+                    let due = begins || (now.q.busy && !now.i.driven);
+                    require(next.q.busy == due, ["busy"], || format!("not {due}"))
+                },
+            )
+            .step(
+                "late is set if a period begins before the previous one is complete",
+                |now, next| {
+                    let clashes = (now.i.begins || now.i.held) && now.q.busy;
+                    let due = clashes || (now.q.late && !now.i.clear);
+                    require(next.q.late == due, ["late"], || format!("not {due}"))
+                },
+            )
     }
 }

@@ -106,7 +106,7 @@ impl Circuit for VectorCorrection {
 impl Specified for VectorCorrection {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new().step(
-            "command and response differ by what corrected command and reference do",
+            "corrected command minus command equals reference minus response",
             |now, next| {
                 let (i, end) = (&now.i, 1i64 << self.width);
                 let expected = match (i.correct, self.correction) {

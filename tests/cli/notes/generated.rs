@@ -279,7 +279,7 @@ fn memory_row(memory: &MemoryDeclaration) -> String {
 /// as they stand.
 fn proofs(patent: &str, stands: &str) -> String {
     let mut text = String::from(
-        "| circuit | widths | states | transitions | depth | holds |\n|---|---|---|---|---|---|\n",
+        "| circuit | widths | states | transitions | depth | proved |\n|---|---|---|---|---|---|\n",
     );
     let entries: Vec<_> = of(patent).filter(|entry| entry.proved).collect();
     let rows = entries.into_par_iter().map(|entry| {

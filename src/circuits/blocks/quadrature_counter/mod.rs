@@ -136,7 +136,7 @@ impl Specified for QuadratureCounter {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step(
-                "a quarter moves the position by one, clear makes it 0, nothing else moves it",
+                "only a quarter period changes the position, by one, and clear sets it to 0",
                 |now, next| {
                     let moved = match turned(now.q) {
                         1 => 1,
@@ -154,7 +154,7 @@ impl Specified for QuadratureCounter {
                 },
             )
             .always(
-                "half a turn in one tick is illegal, nothing else is",
+                "illegal is high if and only if the encoder moves by half a period in one tick",
                 |now| {
                     let half = turned(now.q) == 2;
                     require(now.w.illegal == half, ["illegal"], || {
@@ -163,7 +163,7 @@ impl Specified for QuadratureCounter {
                 },
             )
             .step(
-                "an illegal step is kept in mind until clear",
+                "an illegal step sets lost, which stays high until clear",
                 |now, next| {
                     let lost = (now.q.lost || turned(now.q) == 2) && !now.i.clear;
                     require(next.q.lost == lost, ["lost"], || {
@@ -172,7 +172,7 @@ impl Specified for QuadratureCounter {
                 },
             )
             .step(
-                "a level passes one flip-flop a tick, and three fill them",
+                "a level advances one flip-flop per tick, and samples counts the first three",
                 |now, next| {
                     let (q, i) = (now.q, now.i);
                     let passed = held(&next.q, 0) == quarter(i.a, i.b)
