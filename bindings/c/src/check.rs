@@ -48,7 +48,7 @@ pub unsafe extern "C" fn mrtl_check(model: mrtl_model, abi: u32, ports: u64) -> 
         if ports != own {
             let (name, list) = (bench.model.name(), lines.concat());
             let text = format!(
-                "{name} has other ports than the bench is made for: hash {own:#018x}, \
+                "{name} has other ports than the bench expects: hash {own:#018x}, \
                  not {ports:#018x}; its ports are:\n{list}"
             );
             return Err(Failure::new(MRTL_MISMATCH, text.trim_end()));

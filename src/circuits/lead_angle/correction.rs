@@ -155,7 +155,7 @@ signals! { for Correction as c;
 
 impl Circuit for Correction {
     const NAME: &'static str = "correction";
-    const ABOUT: &'static str = "learns the lead time of a step from where it stopped";
+    const ABOUT: &'static str = "learns the lead time of a step from the stop error";
     records!(In, Nothing, Net, Parts);
 
     fn name(&self) -> &'static str {

@@ -51,7 +51,7 @@ signals! { for ExactRelation as c;
 
 impl Circuit for ExactRelation {
     const NAME: &'static str = "exact_relation";
-    const ABOUT: &'static str = "divides a correction by the distance that the lead gave";
+    const ABOUT: &'static str = "divisor of a correction: distance from control signal to target";
     records!(In, Nothing, Net);
 
     fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {

@@ -52,7 +52,7 @@ signals! { for Lead as c;
 
 impl Circuit for Lead {
     const NAME: &'static str = "lead_arithmetic";
-    const ABOUT: &'static str = "N times the distance of the last tap";
+    const ABOUT: &'static str = "lead: N times the distance moved since the earlier sample";
     records!(In, Nothing, Net);
 
     fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {

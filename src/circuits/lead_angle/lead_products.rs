@@ -40,7 +40,7 @@ signals! { for LeadProducts as c;
 
 impl Circuit for LeadProducts {
     const NAME: &'static str = "lead_products";
-    const ABOUT: &'static str = "prediction from a product of each sample";
+    const ABOUT: &'static str = "prediction as the difference of two products, one per sample";
     records!(In, Nothing, Net);
 
     fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {

@@ -88,7 +88,7 @@ signals! { for PhaseCounter as c;
 
 impl Circuit for PhaseCounter {
     const NAME: &'static str = "phase_counter";
-    const ABOUT: &'static str = "place in a pitch from the phase of a secondary, and the carrier";
+    const ABOUT: &'static str = "place in a pitch from the secondary's phase; makes the carrier";
     records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {

@@ -93,7 +93,7 @@ signals! { for Refinement as c;
 
 impl Circuit for Refinement {
     const NAME: &'static str = "refinement";
-    const ABOUT: &'static str = "divides a correction a second time, for the second order";
+    const ABOUT: &'static str = "second division of a correction, for the second order";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {

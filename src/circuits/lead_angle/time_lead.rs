@@ -192,7 +192,7 @@ signals! { for TimeLead as c;
 
 impl Circuit for TimeLead {
     const NAME: &'static str = "time_lead";
-    const ABOUT: &'static str = "lead for a time, from a shift register of samples";
+    const ABOUT: &'static str = "lead for a lead time, from a shift register of samples";
     records!(In, Nothing, Net, Parts);
 
     fn name(&self) -> &'static str {
@@ -205,7 +205,7 @@ impl Circuit for TimeLead {
     fn about(&self) -> &'static str {
         match self.memory {
             Memory::ShiftRegister => Self::ABOUT,
-            Memory::Ram => "the lead of a time, from a RAM of samples",
+            Memory::Ram => "lead for a lead time, from a RAM of samples",
         }
     }
 

@@ -42,7 +42,7 @@ signals! { for TimeLimit as c;
 
 impl Circuit for TimeLimit {
     const NAME: &'static str = "time_limit";
-    const ABOUT: &'static str = "limits times to the history where N is fixed at 1";
+    const ABOUT: &'static str = "limits lead times to the length of the history, for N = 1";
     records!(In, Nothing, Net);
 
     fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {

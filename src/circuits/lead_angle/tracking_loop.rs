@@ -120,7 +120,7 @@ signals! { for TrackingLoop as c;
 
 impl Circuit for TrackingLoop {
     const NAME: &'static str = "tracking_loop";
-    const ABOUT: &'static str = "angle and speed of a resolver, from the error of the angle";
+    const ABOUT: &'static str = "angle and speed of a resolver, tracked by the angle error";
     records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {

@@ -56,7 +56,7 @@ fn correction(function: Function, stages: usize, position: usize) -> Correction 
 /// The circuits of JPH0646367B2.
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
-        AbsoluteDetector, "JPH0646367B2 10, an absolute encoder of a turn",
+        AbsoluteDetector, "JPH0646367B2 10, a single-turn absolute encoder",
         full: AbsoluteDetector { code: 17, position: 24 },
         small: AbsoluteDetector { code: 3, position: 4 },
     ),
@@ -144,7 +144,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         TimeLead, "JPH0646367B2 11, 13–16, with a RAM",
         full: TimeLead::new(199, 24, Memory::Ram),
         small: TimeLead::new(3, 4, Memory::Ram),
-        named: "ram_time_lead", "the lead of a time, from a RAM of samples",
+        named: "ram_time_lead", "lead for a lead time, from a RAM of samples",
     ),
     entry!(
         SpeedDetector, "JPH0646367B2 2 of Fig. 7",
