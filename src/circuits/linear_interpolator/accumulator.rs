@@ -119,7 +119,7 @@ signals! { for Accumulator as c;
         pub multiplicand: U(c.divider()),
         /// |δx|.
         pub multiplier: U(c.position),
-        /// Addend of the dividend, for the carried remainder.
+        /// Addend of the dividend: brings in the carried remainder.
         pub addend: U(c.divider()),
         /// |Δx|.
         pub divisor: U(c.divider()),
