@@ -74,7 +74,7 @@ impl Circuit for LengthClamp {
 impl Specified for LengthClamp {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new().always(
-            "the result is the length less `back`, limited to the path",
+            "the result is length minus back, limited to the path",
             |now| {
                 let end = now.i.path_end;
                 let less = now.i.length - self.back as i64;
