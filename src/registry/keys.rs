@@ -294,6 +294,8 @@ impl Change<'_> {
                     self.put(own, &format!("{path}."), &name, value);
                 }
             }
+            // The name that it has, with its keys.
+            (Some(Value::Table(own)), Value::String(name)) if named && own.contains_key(&name) => {}
             // Nothing is inside a number or a list.
             (Some(own), Value::Table(_)) if !own.is_table() && !named && !rest.is_empty() => {}
             (_, value) => drop(table.insert(head.to_owned(), value)),

@@ -10,7 +10,7 @@ const BEGUN: Duration = Duration::from_secs(3);
 /// Jobs with a scenario each, and those of the tables that have no defaults.
 const JOBS: [(&str, &str, &str); 9] = [
     ("pulse_interpolator", "", "waves/bracket.toml"),
-    ("pulse_interpolator", "motor.", "waves/flange.toml"),
+    ("pulse_interpolator", "motor.", "waves/bracket.toml"),
     ("linear_interpolator", "", "waves/plotter.toml"),
     ("lead_angle", "", "waves/turntable.toml"),
     ("arc_generator", "", "waves/weld.toml"),

@@ -462,7 +462,7 @@ fn bad_input_is_refused_with_its_line() {
         ("sample_ticks=100", format!("sample_ticks: is 100; {least}")),
         (
             "unit_ticks=0",
-            "unit_ticks: is 0; allowed: 1 to 16777215".to_owned(),
+            "unit_ticks: is 0; allowed: 2 to 196605".to_owned(),
         ),
         (
             "unit_ticks=1",

@@ -19,11 +19,13 @@ settings! {
         /// Inertia of motor and body before the load changes.
         pub inertia_kg_m2 [required]: f64 = 0.5, in POSITIVE;
         /// Coulomb friction of the bearings before the load changes; 0 for none.
-        pub friction_nm [required]: f64 = 1.5, in 0.0..=MOST_TORQUE_NM;
+        pub friction_nm [required]: f64 = 1.5, in 0.0..=MOST_TORQUE_NM,
+            "also together with brake_torque_nm";
         /// Time from the control signal until the brake engages.
         pub brake_dead_time_s [required]: f64 = 0.012, in 0.0..=10.0;
         /// Friction torque of the new brake.
-        pub brake_torque_nm [required]: f64 = 50.0, in *POSITIVE.start()..=MOST_TORQUE_NM;
+        pub brake_torque_nm [required]: f64 = 50.0, in *POSITIVE.start()..=MOST_TORQUE_NM,
+            "also together with friction_nm";
         /// Part of its torque that the brake loses with each braking; 0 for none.
         pub brake_fade [required]: f64 = 0.0005, in 0.0..=0.5;
     }
@@ -59,8 +61,10 @@ settings! {
         /// Factor of the inertia.
         pub load_inertia_factor: f64 = 1.0, in FACTORS;
         /// Factor of the bearings' friction.
-        pub load_friction_factor: f64 = 1.0, in FACTORS;
+        pub load_friction_factor: f64 = 1.0, in FACTORS,
+            "as long as friction and brake are in their ranges";
         /// Factor of the brake's torque: a loaded brake gets hot.
-        pub load_brake_factor: f64 = 1.0, in FACTORS;
+        pub load_brake_factor: f64 = 1.0, in FACTORS,
+            "as long as friction and brake are in their ranges";
     }
 }

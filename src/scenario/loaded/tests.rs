@@ -179,7 +179,7 @@ fn a_fault_within_the_value_of_an_override_names_its_place() {
     let step = &format!("step=[{{target=1,{speed}}}]");
     assert_eq!(
         refusal(STEPS, &[step, "step.target=5"]),
-        "--set: step.target: step is a list; allowed: all of it: step=[{key=value,…},…]"
+        "--set: step.target: step is a list; allowed: the whole list: step=[{key=value,…},…]"
     );
 }
 

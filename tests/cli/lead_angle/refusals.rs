@@ -99,7 +99,7 @@ fn settings_are_checked_and_named_with_their_line() {
     let one = "step=[{target=9000,speed_counts_per_s=20000}]";
     assert_eq!(
         refusal(&bench, &["s.toml", "--set", one]),
-        "error: --set: step: is 1 step; allowed: 2 to 16, or targets = \"relative\", or \
+        "error: --set: step: 1 table is given; allowed: 2 to 16 tables [[step]], or targets = \"relative\", or \
          positionings = 1\n"
     );
     let set = ["s.toml", "--set", "common_time=true"];
