@@ -190,6 +190,7 @@
 //! | [`files`], [`picture`] | files replaced as a whole, drawings |
 //! | [`settings`] | settings with defaults, ranges and units, and their errors |
 //! | [`input`], [`trace`] | G-code, HPGL and position logs; waves, stimuli, timing charts |
+//! | [`checker`] | a design's ports compared with a running model |
 //! | [`compare`], [`plan`], [`plant`], [`verilog`] | comparison of waves, speed profiles, motors, Verilog |
 //! | [`path`] | paths in space |
 //! | [`check`] | proofs, sweeps, random stimuli |
@@ -219,6 +220,9 @@ pub mod settings;
 pub mod input;
 #[warn(missing_docs)]
 pub mod trace;
+
+#[warn(missing_docs)]
+pub mod checker;
 
 #[warn(missing_docs)]
 pub mod compare;

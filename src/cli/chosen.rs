@@ -2,6 +2,7 @@
 
 use super::Failure;
 use clap::Args;
+use motion_rtl::Model;
 use motion_rtl::nearest::did_you_mean;
 use motion_rtl::registry::{AnyModel, Base, CATALOGUE, Entry, Pair, Refused, find};
 use serde::{Deserialize, Serialize};
@@ -193,6 +194,21 @@ impl fmt::Display for Chosen {
 }
 
 impl Chosen {
+    /// The full circuit with its changes, running, and the changed keys, one per line.
+    pub fn running(&self) -> Result<(Model, String), Failure> {
+        let entry = entry(&self.circuit)?;
+        let pairs = self.changes.pairs(entry)?;
+        let made = entry.made(Base::Full, &pairs);
+        made.map_err(|error| refused(entry, error))?;
+        let model = Model::new(entry.name, &pairs).map_err(|error| Failure::Argument {
+            field: "CIRCUIT",
+            problem: error.to_string(),
+            allowed: "circuits that can be run".to_owned(),
+        })?;
+        let lines = pairs.iter().map(|pair| format!("{pair}\n")).collect();
+        Ok((model, lines))
+    }
+
     /// The full circuit with its changes.
     pub fn model(&self) -> Result<Box<dyn AnyModel>, Failure> {
         let entry = entry(&self.circuit)?;

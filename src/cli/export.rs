@@ -46,6 +46,23 @@ impl Export {
         }
     }
 
+    /// Creates the files of a circuit's checker, in the order in which they are compiled.
+    pub fn checker(circuit: &str, sources: Vec<SourceFile>, name: String) -> Self {
+        let mut list = format!("{MADE}{name}\n");
+        for source in &sources {
+            list += &source.name;
+            list += "\n";
+        }
+        Export {
+            name,
+            sources,
+            list: SourceFile {
+                name: format!("{circuit}_checker{LIST}"),
+                text: list,
+            },
+        }
+    }
+
     pub fn files(&self) -> impl Iterator<Item = &SourceFile> {
         self.sources.iter().chain([&self.list])
     }

@@ -8,6 +8,7 @@ mod clean;
 mod columns;
 mod compare;
 mod connections;
+mod dpi;
 mod errors;
 mod export;
 mod faults;

@@ -1,6 +1,7 @@
-//! `verilog`: a circuit as Verilog, with a testbench if one is asked for.
+//! `verilog`: a circuit as Verilog, with a testbench if one is asked for, or a checker by DPI.
 
 use super::chosen::Chosen;
+use super::dpi::{self, Dpi};
 use super::export::Export;
 use super::files::Files;
 use super::{Failure, print, warn};
@@ -41,10 +42,15 @@ pub struct Arguments {
         requires = "testbench"
     )]
     seed: u64,
+    #[command(flatten)]
+    dpi: Dpi,
 }
 
 /// Writes the circuit and, if requested, its testbench.
 pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.dpi.is_asked() {
+        return dpi::checker(&arguments.chosen, &arguments.dpi, &arguments.out);
+    }
     let circuit = arguments.chosen.model()?;
     let verilog = circuit.verilog().map_err(|error| Failure::Argument {
         field: "CIRCUIT",

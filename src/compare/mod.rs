@@ -50,6 +50,7 @@
 //! time in a complete line.
 
 mod around;
+mod bound;
 mod ends;
 mod gap;
 mod ghw;
@@ -72,6 +73,7 @@ mod times;
 mod value;
 mod wave;
 
+pub use bound::{BoundPorts, is_identifier};
 pub use map::Map;
 pub use report::{Cell, Difference, Mismatch, Report, Row, Side, WidthDifference};
 pub use value::WIDEST;

@@ -17,6 +17,7 @@
 mod connections;
 mod conversion;
 mod design;
+mod dpi;
 mod expression;
 mod formal;
 mod header;
@@ -35,6 +36,7 @@ use crate::sim::Described;
 use crate::trace::Clock;
 pub use connections::{Connection, Connections, Part};
 use design::Modules;
+pub use dpi::{Binding, DpiChecker};
 use std::fmt::Write as _;
 
 /// A circuit as Verilog-2001.

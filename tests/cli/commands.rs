@@ -1,8 +1,8 @@
 //! Commands that the documents show: each is run, and each filter of `cargo test` selects a test.
 //!
 //! `.ci/run` itself runs the README's first two commands, `mutate` and the benches;
-//! `cosim::golden_model` runs those of `golden_model.md` and compares what they print; tests in
-//! `bindings` run those of the pages on other languages.
+//! `cosim::golden_model` runs those of `golden_model.md` and compares what they print, `cosim::dpi`
+//! those of the page on SystemVerilog, and tests in `bindings` those of the pages on other languages.
 
 use rayon::prelude::*;
 use std::collections::BTreeSet;

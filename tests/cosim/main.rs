@@ -1,5 +1,6 @@
 //! Every circuit's Verilog against the model, in simulators and in synthesis.
 
+mod dpi;
 mod golden_model;
 mod plotter;
 mod scenario;

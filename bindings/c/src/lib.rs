@@ -16,6 +16,7 @@ mod abi;
 mod bench;
 mod check;
 mod codes;
+mod dpi;
 mod failure;
 mod lifetime;
 mod run;

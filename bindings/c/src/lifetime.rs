@@ -60,7 +60,7 @@ pub unsafe extern "C" fn mrtl_new(
 }
 
 /// Returns the settings of `key=value` lines.
-fn pairs(settings: &str) -> Result<Vec<Pair>, Failure> {
+pub fn pairs(settings: &str) -> Result<Vec<Pair>, Failure> {
     let mut pairs = Vec::new();
     for (number, line) in (1..).zip(settings.lines()) {
         if !line.trim().is_empty() {

@@ -2,7 +2,7 @@
 //!
 //! A handle is the index of a slot, the generation of the slot and the kind of the table. A number
 //! that was never given out, a handle of a freed value and a handle of the other kind are therefore
-//! refused. A generation returns after 16,383 values in one slot.
+//! refused. A generation returns after 8,191 values in one slot.
 
 use crate::codes::{MRTL_BUSY, MRTL_PANIC, MRTL_WRONG_HANDLE};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -13,7 +13,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 const INDEX_BITS: u32 = 16;
 const SLOTS: usize = 1 << INDEX_BITS;
-const GENERATIONS: i32 = (1 << 14) - 1;
+const GENERATIONS: i32 = (1 << 13) - 1;
 
 /// No call is running.
 const IDLE: u8 = 0;

@@ -133,7 +133,7 @@ impl Model {
 
     /// Sets an input port to a word that fits it.
     #[inline]
-    pub(in crate::sim) fn drive(&mut self, port: usize, bits: u64) {
+    pub(crate) fn drive(&mut self, port: usize, bits: u64) {
         self.engine.drive(port, bits);
         self.settled = false;
     }
@@ -166,8 +166,9 @@ impl Model {
         Ok((self.word(leaf) << above) as i64 >> above)
     }
 
+    /// Returns the bits of a leaf in this tick, settled.
     #[inline]
-    fn word(&mut self, leaf: usize) -> u64 {
+    pub(crate) fn word(&mut self, leaf: usize) -> u64 {
         self.settle();
         if self.engine.is_costly(leaf) {
             self.count_costly(leaf);

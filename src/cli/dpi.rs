@@ -1,0 +1,116 @@
+//! `verilog --dpi`: a checker that puts the model beside a design in a simulator.
+
+use super::chosen::Chosen;
+use super::export::Export;
+use super::files::Files;
+use super::{Failure, print};
+use clap::Args;
+use motion_rtl::compare::{BoundPorts, Map, is_identifier};
+use motion_rtl::verilog::{Binding, DpiChecker};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Value of `--reset` for a design without a reset.
+const NONE: &str = "none";
+
+/// Arguments of a checker.
+#[derive(Debug, Args)]
+pub struct Dpi {
+    /// Writes a SystemVerilog checker in place of the circuit: it compares your design with the
+    /// model at every clock edge, in your simulator.
+    #[arg(long, conflicts_with = "testbench")]
+    dpi: bool,
+    /// Module of your design to which the checker is bound; the name of the circuit by default.
+    #[arg(long, value_name = "NAME", requires = "dpi")]
+    module: Option<String>,
+    /// Names that differ and ports to leave out, in TOML, as in `compare`.
+    #[arg(long, value_name = "FILE", requires = "dpi")]
+    map: Option<PathBuf>,
+    /// Clock of your module.
+    #[arg(long, value_name = "NAME", requires = "dpi")]
+    clock: Option<String>,
+    /// Synchronous reset of your module: NAME, !NAME if it is active low, or none.
+    #[arg(long, value_name = "NAME", default_value = "rst", requires = "dpi")]
+    reset: String,
+    /// Compares from the first clock edge on, without waiting for a reset.
+    #[arg(long, requires = "dpi")]
+    from_power_on: bool,
+}
+
+impl Dpi {
+    /// True if a checker is to be written.
+    pub fn is_asked(&self) -> bool {
+        self.dpi
+    }
+
+    /// Returns the expression for the reset.
+    fn reset(&self) -> Result<String, Failure> {
+        if self.reset == NONE {
+            return Ok("1'b0".to_owned());
+        }
+        match self.reset.strip_prefix('!') {
+            Some(name) => Ok(format!("~{}", identifier("--reset", name)?)),
+            None => identifier("--reset", &self.reset),
+        }
+    }
+}
+
+fn identifier(field: &'static str, name: &str) -> Result<String, Failure> {
+    match is_identifier(name) {
+        true => Ok(name.to_owned()),
+        false => Err(Failure::Argument {
+            field,
+            problem: format!("{name:?} is no name in Verilog"),
+            allowed: "letters, digits, _ and $, with a letter or _ first".into(),
+        }),
+    }
+}
+
+/// Writes the checker of a circuit.
+pub fn checker(chosen: &Chosen, dpi: &Dpi, out: &Path) -> Result<(), Failure> {
+    let (model, settings) = chosen.running()?;
+    let circuit = model.name();
+    let bound = match &dpi.map {
+        Some(path) => Map::read(path)?.bound(&model)?,
+        None => BoundPorts::default(),
+    };
+    let module = identifier("--module", dpi.module.as_deref().unwrap_or(circuit))?;
+    let clock = identifier("--clock", dpi.clock.as_deref().unwrap_or("clk"))?;
+    let binding = Binding {
+        module,
+        clock,
+        reset: dpi.reset()?,
+        ports: bound.ports,
+        from_power_on: dpi.from_power_on || dpi.reset == NONE,
+    };
+    let checker = DpiChecker::new(&model, &settings, &bound.left);
+    let checker = checker.map_err(|error| Failure::Argument {
+        field: "--map",
+        problem: error.to_string(),
+        allowed: "ports of the circuit".into(),
+    })?;
+    let mut sources = Vec::from(checker.sources());
+    let mut text = String::new();
+    // A module without registers has no clock that could be bound.
+    match checker.is_clocked() || dpi.clock.is_some() {
+        true => sources.push(checker.binding(&binding)),
+        false => {
+            // Writing to a string does not fail.
+            let _ = writeln!(
+                text,
+                "{circuit} has no clock: instantiate {circuit}_checker in your bench, or name a \
+                 clock of your module with --clock"
+            );
+        }
+    }
+    let mut files = Files::begin(out, circuit)?;
+    files.export(Export::checker(
+        circuit,
+        sources,
+        format!("verilog {chosen} --dpi"),
+    ))?;
+    for path in files.commit()? {
+        let _ = writeln!(text, "{path}");
+    }
+    print(&text)
+}
