@@ -99,6 +99,11 @@ fn waves(pattern: &str, instance: &str) -> Option<PathBuf> {
     (!pattern.is_empty()).then(|| pattern.replace("%m", &name).into())
 }
 
+/// Returns the name of an instance without the scope that some versions of Verilator put around all.
+fn without_top(instance: &str) -> &str {
+    instance.strip_prefix("TOP.").unwrap_or(instance)
+}
+
 /// Strings that a checker passes.
 struct Strings<'t> {
     version: &'t str,
@@ -186,6 +191,10 @@ pub unsafe extern "C" fn mrtl_dpi_new(
                     waves: text::read("waves", waves)?,
                     instance: text::read("instance", instance)?,
                 }
+            };
+            let strings = Strings {
+                instance: without_top(strings.instance),
+                ..strings
             };
             let name = strings.instance;
             made(dpi, ports, from_power_on != 0, strings).map_err(|failure| Failure {
@@ -317,3 +326,6 @@ impl Beside {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -199,7 +199,7 @@ fn the_commands_of_the_page_end_with_a_pass_and_a_fault_is_found() {
     let (code, text) = shell(folder.path(), &format!("{compile}\n{}", lines[4]));
     assert_ne!(code, Some(0), "{text}");
     assert!(text.contains(first) && text.contains(verdict), "{text}");
-    let waves = "TOP.step_channel_bench.dut.mrtl_checker";
+    let waves = "step_channel_bench.dut.mrtl_checker";
     for extension in ["vcd", "gtkw"] {
         let file = folder.path().join(format!("{waves}.{extension}"));
         assert!(fs::metadata(file).unwrap().len() > 1000);

@@ -112,7 +112,7 @@ fn judges(clock: Clock) {
     assert!(text.contains("first difference in tick "), "{text}");
     for design in ["first", "second"] {
         for extension in ["vcd", "gtkw"] {
-            let name = format!("TOP.bench.{design}.mrtl_checker.{extension}");
+            let name = format!("bench.{design}.mrtl_checker.{extension}");
             let file = path.join(&name);
             assert!(text.contains(&name) || extension == "gtkw", "{text}");
             assert!(fs::metadata(file).unwrap().len() > 500);
