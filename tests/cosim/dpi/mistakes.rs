@@ -3,7 +3,7 @@
 use super::*;
 
 const DESIGN: &str = "\
-module design (
+module my_counter (
     input  wire       clk,
     input  wire       rst,
     input  wire [7:0] period,
@@ -19,7 +19,7 @@ module bench;
     reg [7:0] period = 8'd3;
     wire enable;
     integer cycle = 0;
-    design dut (.clk(clk), .rst(rst), .period(period), .enable(enable));
+    my_counter dut (.clk(clk), .rst(rst), .period(period), .enable(enable));
     always #5 clk = ~clk;
     always @(posedge clk) begin
         cycle <= cycle + 1;
@@ -51,7 +51,7 @@ fn changed(
 
 fn binding() -> Binding {
     Binding {
-        module: "design".to_owned(),
+        module: "my_counter".to_owned(),
         clock: "clk".to_owned(),
         reset: "rst".to_owned(),
         ..Binding::default()

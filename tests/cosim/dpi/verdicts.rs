@@ -4,7 +4,7 @@ use super::*;
 
 /// An enable counter with faults that the command line chooses, driven at random.
 const DESIGN: &str = "\
-module design (
+module my_counter (
     input  wire       clk,
     input  wire       rst_n,
     input  wire [7:0] length,
@@ -37,8 +37,8 @@ module bench {head};
     wire [1:0] ticks;
     integer cycle = 0;
     reg reset = 1'b1, moving = 1'b1;
-    design first (.clk(clk), .rst_n(rst_n), .length(length), .tick(ticks[0]));
-    design second (.clk(clk), .rst_n(rst_n), .length(other), .tick(ticks[1]));
+    my_counter first (.clk(clk), .rst_n(rst_n), .length(length), .tick(ticks[0]));
+    my_counter second (.clk(clk), .rst_n(rst_n), .length(other), .tick(ticks[1]));
     initial begin
         if ($test$plusargs(\"unreset\") != 0) reset = 1'b0;
         if ($test$plusargs(\"still\") != 0) moving = 1'b0;
@@ -61,7 +61,7 @@ endmodule
 fn binding() -> Binding {
     let port = |path: &str, own: &str| (path.to_owned(), own.to_owned());
     Binding {
-        module: "design".to_owned(),
+        module: "my_counter".to_owned(),
         clock: "clk".to_owned(),
         reset: "~rst_n".to_owned(),
         ports: vec![port("period", "length"), port("enable", "tick")],
@@ -94,7 +94,7 @@ fn judges(clock: Clock) {
     let plays = |arguments: &[&str]| ended(started(path, &program).args(arguments));
 
     let (code, text) = plays(&[]);
-    let equal = "PASS: 2997 values equal in 2997 ticks";
+    let equal = "PASS: 2999 values equal in 2999 ticks";
     assert_eq!((code, verdicts(&text)), (Some(0), vec![equal; 2]), "{text}");
     assert!(text.contains("moved, how often: period "), "{text}");
 
@@ -122,7 +122,7 @@ fn judges(clock: Clock) {
     // One of two that cannot be judged is enough.
     let (code, text) = plays(&["+one"]);
     assert_ne!(code, Some(0), "{text}");
-    let still = "VACUOUS: no output port moved in 2997 ticks";
+    let still = "VACUOUS: no output port moved in 2999 ticks";
     let mut found = verdicts(&text);
     found.sort_unstable();
     assert_eq!(found, [equal, still], "{text}");
@@ -146,7 +146,7 @@ fn judges(clock: Clock) {
         let lines = text.lines();
         let ends =
             lines.filter(|line| line.contains("the comparison has not ended; a bench in C++"));
-        assert_eq!((ends.count(), verdicts(&text).len()), (2, 2), "{text}");
+        assert_eq!((ends.count(), verdicts(&text).len()), (2, 0), "{text}");
     }
 }
 
