@@ -1,6 +1,7 @@
 use super::records::Records;
 use super::{Coverage, Stimulus};
-use crate::engine::Watch;
+use crate::engine::{Engine, Watch};
+use crate::input::stimulus::PortInputs;
 use crate::sim::{Described, Elaborated, LeafView as View, RunError};
 use crate::trace::{Clock, Dump, Layout, Lines, Options, OutputFile, VcdFile};
 use std::io::{self, Write};
@@ -49,6 +50,32 @@ pub fn drive(
     drive.run(&model, &mut waves, &mut stimulus, &mut expected)
 }
 
+/// Plays inputs on a circuit from power-on, and writes what [`drive`] writes.
+///
+/// # Errors
+/// Returns the errors of [`drive`].
+pub fn play(
+    circuit: &impl Described,
+    inputs: &PortInputs,
+    clock: Clock,
+    mut waves: impl Write,
+    mut stimulus: impl Write,
+    mut expected: impl Write,
+) -> Result<Driven, RunError> {
+    let mut outputs = Outputs {
+        clock,
+        waves: &mut waves,
+        stimulus: &mut stimulus,
+        expected: &mut expected,
+    };
+    let ticks = inputs.ticks() as u64;
+    outputs.of(&circuit.described()?, ticks, |tick, engine| {
+        let (words, rst) = inputs.tick(tick as usize).unwrap_or_default();
+        engine.drive_all(words);
+        rst
+    })
+}
+
 impl Drive {
     /// Drives an elaborated circuit as [`drive`] does.
     ///
@@ -61,40 +88,70 @@ impl Drive {
         stimulus: &mut dyn Write,
         expected: &mut dyn Write,
     ) -> Result<Driven, RunError> {
+        let mut random = Stimulus::new(self.seed);
+        let mut records = Records::of(model.declarations(), model.flat().inputs.len(), self.seed);
+        let mut outputs = Outputs {
+            clock: self.clock,
+            waves,
+            stimulus,
+            expected,
+        };
+        outputs.of(model, self.ticks, |_, engine| {
+            let rst = self.resets && random.reset();
+            random.apply(engine);
+            if let Some(records) = &mut records {
+                records.apply(engine);
+                if rst {
+                    records.restart();
+                }
+            }
+            rst
+        })
+    }
+}
+
+/// Files of a run.
+struct Outputs<'w> {
+    clock: Clock,
+    waves: &'w mut dyn Write,
+    stimulus: &'w mut dyn Write,
+    expected: &'w mut dyn Write,
+}
+
+impl Outputs<'_> {
+    /// Runs a circuit from power-on; `apply` sets the input ports of a tick and returns true if
+    /// the tick ends with a reset.
+    fn of(
+        &mut self,
+        model: &Elaborated,
+        ticks: u64,
+        mut apply: impl FnMut(u64, &mut Engine) -> bool,
+    ) -> Result<Driven, RunError> {
         let leaves = model.declarations().leaves.clone();
         let layout = Layout::new(model.name(), leaves, None).map_err(io::Error::from)?;
-        let file = VcdFile::new(waves, &layout, self.clock);
+        let file = VcdFile::new(&mut self.waves, &layout, self.clock);
         let mut dump = Dump::new(&layout, self.clock, &Options::default(), file);
         let widths = model.flat().inputs.iter().map(|&width| width.into());
         let mut lines = Lines::new(widths.collect());
-        let mut outputs = OutputFile::of(expected, model);
+        let mut outputs = OutputFile::of(&mut self.expected, model);
         let mut coverage = Coverage::of(model.declarations());
         let mut engine = model.engine(Watch::All);
-        let mut random = Stimulus::new(self.seed);
-        let mut records = Records::of(model.declarations(), model.flat().inputs.len(), self.seed);
         let mut resets = 0;
-        for tick in 0..self.ticks {
-            let rst = self.resets && random.reset();
+        for tick in 0..ticks {
+            let rst = apply(tick, &mut engine);
             resets += u64::from(rst);
-            random.apply(&mut engine);
-            if let Some(records) = &mut records {
-                records.apply(&mut engine);
-            }
             engine.settle();
-            lines.tick(&engine, rst, stimulus)?;
+            lines.tick(&engine, rst, &mut self.stimulus)?;
             outputs.tick(View::of(&engine))?;
             dump.tick(tick, View::of(&engine))?;
             coverage.tick(tick, View::of(&engine));
             match rst {
-                true => {
-                    engine.reset();
-                    records.iter_mut().for_each(Records::restart);
-                }
+                true => engine.reset(),
                 false => engine.edge(),
             }
         }
         dump.finish()?;
-        lines.finish(stimulus)?;
+        lines.finish(&mut self.stimulus)?;
         outputs.finish()?;
         Ok(Driven { resets, coverage })
     }

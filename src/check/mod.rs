@@ -78,7 +78,7 @@ mod visited;
 pub use blamed::UnknownSignal;
 pub use counterexample::Counterexample;
 pub use coverage::{Coverage, Untoggled};
-pub use drive::{Drive, Driven, drive};
+pub use drive::{Drive, Driven, drive, play};
 pub use enumerate::{CheckError, Random, TooWide, all};
 pub use invariant::{Fault, Invariants, Monitor, Verdict, require};
 pub use lockstep::{Lockstep, LockstepError};

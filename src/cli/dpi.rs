@@ -18,7 +18,7 @@ const NONE: &str = "none";
 pub struct Dpi {
     /// Writes a SystemVerilog checker in place of the circuit: it compares your design with the
     /// model at every clock edge, in your simulator.
-    #[arg(long, conflicts_with = "testbench")]
+    #[arg(long, conflicts_with = "bench")]
     dpi: bool,
     /// Module of your design to which the checker is bound; the name of the circuit by default.
     #[arg(long, value_name = "NAME", requires = "dpi")]

@@ -6,8 +6,11 @@ use super::export::Export;
 use super::files::Files;
 use super::{Failure, print, warn};
 use clap::Args;
-use motion_rtl::check::{Drive, Untoggled};
+use motion_rtl::check::{Drive, Untoggled, play};
+use motion_rtl::input::stimulus::{InputPort, PortInputs, read_path};
 use motion_rtl::netlist::Role;
+use motion_rtl::registry::AnyModel;
+use motion_rtl::sim::RunError;
 use motion_rtl::trace::Clock;
 use motion_rtl::verilog::Verilog;
 use std::fmt::Write as _;
@@ -23,14 +26,23 @@ pub struct Arguments {
     out: PathBuf,
     /// Also writes a testbench, a stimulus of TICKS ticks, the expected output ports, the golden
     /// waves, and a list of the signals that never changed in them.
-    #[arg(long, value_name = "TICKS", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(2..=100_000_000))]
+    #[arg(long, value_name = "TICKS", group = "bench", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(2..=100_000_000))]
     testbench: Option<u64>,
+    /// Also writes the files of --testbench, with your own inputs: a .csv with names of ports in its
+    /// head and a line per tick, or a .stimulus.
+    #[arg(
+        long,
+        value_name = "FILE",
+        group = "bench",
+        conflicts_with = "testbench"
+    )]
+    stimulus: Option<PathBuf>,
     /// Clock of the golden waves.
     #[arg(
         long,
         value_name = "HZ",
         allow_negative_numbers = true,
-        requires = "testbench"
+        requires = "bench"
     )]
     clock_hz: Option<u64>,
     /// Seed of the random stimulus.
@@ -61,19 +73,38 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
     let mut text = String::new();
     let name = format!("verilog {}", arguments.chosen);
     let clock = clock(arguments)?;
-    let bench = arguments.testbench.map(|_| clock);
+    let played = match &arguments.stimulus {
+        Some(path) => Some((path, read_path(path, &ports(&*circuit, &verilog))?)),
+        None => None,
+    };
+    let bench = (arguments.testbench.is_some() || played.is_some()).then_some(clock);
     files.export(Export::new(&verilog, bench, name))?;
-    if let Some(ticks) = arguments.testbench {
-        let drive = Drive {
-            seed: arguments.seed,
-            ticks,
-            resets: true,
-            clock,
-        };
+    if bench.is_some() {
         let mut waves = files.create("vcd")?;
         let mut stimulus = files.create("stimulus")?;
         let mut expected = files.create("expected")?;
-        let driven = circuit.drive(&drive, &mut waves, &mut stimulus, &mut expected)?;
+        let outputs = (&mut waves, &mut stimulus, &mut expected);
+        let (what, driven) = match (&played, arguments.testbench) {
+            (Some((path, inputs)), _) => {
+                let elaborated = circuit.model().map_err(RunError::from)?;
+                let driven = play(&elaborated, inputs, clock, outputs.0, outputs.1, outputs.2)?;
+                let what = format!("{} ticks of {}", inputs.ticks(), path.display());
+                (what, driven)
+            }
+            (None, ticks) => {
+                let drive = Drive {
+                    seed: arguments.seed,
+                    ticks: ticks.unwrap_or_default(),
+                    resets: true,
+                    clock,
+                };
+                let driven = circuit.drive(&drive, outputs.0, outputs.1, outputs.2)?;
+                (
+                    format!("{} ticks of seed {}", drive.ticks, drive.seed),
+                    driven,
+                )
+            }
+        };
         for file in [waves, stimulus, expected] {
             files.push(file);
         }
@@ -87,11 +118,16 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
         // Writing to a string does not fail.
         let _ = writeln!(
             text,
-            "{ticks} ticks of seed {}, {} of them with rst; {seen} of {bits} bits were 0 and 1",
-            arguments.seed, driven.resets
+            "{what}, {} of them with rst; {seen} of {bits} bits were 0 and 1",
+            driven.resets
         );
         let signals = driven.coverage.signals();
         let _ = writeln!(text, "{}", never_changed(&still, signals, circuit.name()));
+        if let Some((_, PortInputs { low, .. })) = &played
+            && !low.is_empty()
+        {
+            let _ = writeln!(text, "ports without a column stay low: {}", low.join(", "));
+        }
         let _ = writeln!(
             text,
             "a word of the stimulus, from bit 0: {}",
@@ -102,13 +138,26 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
         let _ = writeln!(text, "{path}");
     }
     let testbench = arguments.out.join(format!("{}_tb.v", circuit.name()));
-    if arguments.testbench.is_none() && testbench.exists() {
+    if bench.is_none() && testbench.exists() {
         warn(&format!(
             "{} is of an earlier export and need not fit this one",
             testbench.display()
         ));
     }
     print(&text)
+}
+
+/// Returns the input ports with their names in waves and in Verilog.
+fn ports(circuit: &dyn AnyModel, verilog: &Verilog) -> Vec<InputPort> {
+    let top = verilog.design().modules.last();
+    let inputs = top.into_iter().flat_map(|module| module.inputs());
+    let declared = circuit.outline().leaves;
+    let ports = inputs.zip(&declared).map(|(port, leaf)| InputPort {
+        name: leaf.names().skip(1).collect::<Vec<_>>().join("."),
+        verilog: port.name.clone(),
+        shape: port.shape,
+    });
+    ports.collect()
 }
 
 /// Most signals that are named beside their count.

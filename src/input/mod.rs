@@ -1,4 +1,5 @@
-//! Readers of input files: drawings (HPGL), part programs (G-code) and position logs (CSV).
+//! Readers of input files: drawings (HPGL), part programs (G-code), position logs (CSV), and inputs
+//! of a circuit, tick by tick.
 //!
 //! A reader of moves converts its text into a [`Drawing`]. Every reader reports errors as a
 //! [`Fault`], which names the file, the line, the field, the problem and the allowed values, and
@@ -11,6 +12,7 @@ pub mod gcode;
 pub mod hpgl;
 mod moves;
 pub mod position_log;
+pub mod stimulus;
 mod track;
 
 pub(crate) use fault::Faults;

@@ -63,5 +63,7 @@ mod trajectory_refusals;
 mod verilog;
 #[cfg(unix)]
 mod viewer;
+mod verilog_dpi;
+mod verilog_stimulus;
 mod waves_of;
 mod written;
