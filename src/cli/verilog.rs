@@ -51,7 +51,8 @@ pub struct Arguments {
         value_name = "NUMBER",
         allow_negative_numbers = true,
         default_value_t = 1,
-        requires = "testbench"
+        requires = "testbench",
+        conflicts_with = "stimulus"
     )]
     seed: u64,
     #[command(flatten)]
