@@ -61,9 +61,9 @@ mod tables;
 mod trajectory;
 mod trajectory_refusals;
 mod verilog;
-#[cfg(unix)]
-mod viewer;
 mod verilog_dpi;
 mod verilog_stimulus;
+#[cfg(unix)]
+mod viewer;
 mod waves_of;
 mod written;
