@@ -1,4 +1,4 @@
-"""Prints the time of a tick: signals set and read by name, and runs with arrays."""
+"""Prints times of a tick: signals set and read by name, runs with arrays, a checker's model."""
 
 import sys
 import time
@@ -6,9 +6,11 @@ import time
 import numpy as np
 
 import motion_rtl as mr
+from motion_rtl._motion_rtl import _bound_ports, _Checker
 
 CIRCUITS = [
     ("enable_counter", "period", "enable"),
+    ("unit_law", "period", "step"),
     ("linear_interpolator", None, None),
     ("machine", None, None),
 ]
@@ -22,6 +24,21 @@ def least(run, times=5):
         run()
         best = min(best, time.process_time() - begin)
     return best
+
+
+def checker(name, ticks):
+    """Return the time of an edge of a checker, whose ports have the digits of the model's."""
+    model = mr.Model(name)
+    model.reset()
+    ports, _ = _bound_ports(model)
+    digits = [f"{model[path] % (1 << width):0{width}b}" for path, _, width, _ in ports]
+    checker = _Checker(model, [(False, 0, width) for _, _, width, _ in ports], [], True, "no.vcd")
+
+    def edges():
+        for _ in range(ticks):
+            checker.edge("0", False, digits)
+
+    return least(edges) / ticks
 
 
 def main(ticks):
@@ -46,7 +63,8 @@ def main(ticks):
         print(
             f"{name}: made in {made * 1e3:.1f} ms; "
             f"set, get, step {least(by_name) / ticks * 1e6:.2f} us; "
-            f"run {least(arrays) / (10 * ticks) * 1e9:.0f} ns a tick"
+            f"run {least(arrays) / (10 * ticks) * 1e9:.0f} ns a tick; "
+            f"edge of a checker {checker(name, ticks // 10) * 1e6:.2f} us"
         )
 
 

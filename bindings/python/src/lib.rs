@@ -1,6 +1,7 @@
 //! Python module of motion-rtl; the package around it is in `python/motion_rtl`.
 
 mod arrays;
+mod checker;
 mod compare;
 mod errors;
 mod key;
@@ -20,8 +21,10 @@ fn _motion_rtl(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<snapshot::Snapshot>()?;
     module.add_class::<signal::Signal>()?;
     module.add_class::<compare::Report>()?;
+    module.add_class::<checker::Checker>()?;
     module.add_function(wrap_pyfunction!(compare::compare, module)?)?;
     module.add_function(wrap_pyfunction!(settings::pairs, module)?)?;
     module.add_function(wrap_pyfunction!(program::main, module)?)?;
+    module.add_function(wrap_pyfunction!(checker::bound_ports, module)?)?;
     Ok(())
 }

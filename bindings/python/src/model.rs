@@ -59,6 +59,11 @@ impl Model {
         }
     }
 
+    /// Returns a copy of the running circuit.
+    pub fn copied(&self, py: Python<'_>) -> PyResult<Rtl> {
+        Ok(self.shared.lock(py)?.clone())
+    }
+
     fn infos(&self, py: Python<'_>) -> PyResult<&Arc<Vec<SignalInfo>>> {
         if let Some(infos) = self.infos.get() {
             return Ok(infos);
@@ -332,8 +337,7 @@ impl Model {
 
     /// Returns an independent copy in the same tick, without the waves.
     fn copy(&self, py: Python<'_>) -> PyResult<Self> {
-        let model = self.shared.lock(py)?.clone();
-        Ok(Model::new(model, self.settings.clone()))
+        Ok(Model::new(self.copied(py)?, self.settings.clone()))
     }
 
     fn __copy__(&self, py: Python<'_>) -> PyResult<Self> {

@@ -107,3 +107,20 @@ def _pairs(
     settings: Mapping[str, Any] | None = None, keywords: dict[str, Any] | None = None
 ) -> list[str]: ...
 def _main(words: list[str]) -> int: ...
+def _bound_ports(
+    model: Model,
+    map: str | os.PathLike[str] | None = None,
+    text: str | None = None,
+) -> tuple[list[tuple[str, Literal["in", "out"], int, str]], list[str]]: ...
+
+class _Checker:
+    def __new__(
+        cls,
+        model: Model,
+        ports: list[tuple[bool, int, int]],
+        leave: list[str],
+        from_power_on: bool,
+        waves: str | os.PathLike[str] | None,
+    ) -> _Checker: ...
+    def edge(self, reset: str, inverts: bool, values: list[str], /) -> str | None: ...
+    def end(self) -> tuple[Literal["PASS", "FAIL", "VACUOUS"], str]: ...
