@@ -67,22 +67,23 @@ struct Port {
 }
 
 impl Port {
-    /// Puts digits into the words of the tick. Returns false if some are unknown.
+    /// Puts digits into the words of the tick. Returns false if some are unknown; the bits are 0
+    /// then.
     #[inline]
     fn put(&mut self, digits: &[u8], words: &mut [u64]) -> bool {
         // Most ports keep their value.
         if digits == self.last {
             return true;
         }
+        let bits = word(digits);
         self.last.clear();
-        let Some(bits) = word(digits) else {
-            return false;
-        };
-        let bits = if self.is_inverted { !bits } else { bits };
+        if bits.is_some() {
+            self.last.extend_from_slice(digits);
+        }
+        let inverted = bits.map(|bits| if self.is_inverted { !bits } else { bits });
         let (mask, word) = (self.place.mask(), &mut words[self.place.word]);
-        *word = *word & !mask | bits << self.place.low & mask;
-        self.last.extend_from_slice(digits);
-        true
+        *word = *word & !mask | inverted.unwrap_or(0) << self.place.low & mask;
+        bits.is_some()
     }
 }
 

@@ -48,6 +48,7 @@ def simulate(directory, toplevel, sources, module, **options):
         hdl_toplevel=toplevel,
         build_dir=directory,
         test_dir=directory,
+        seed=1,
         extra_env={"NAMES": os.fspath(DESIGN / "names.toml")},
     )
     return get_results(results)

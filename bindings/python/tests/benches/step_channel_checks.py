@@ -65,9 +65,10 @@ async def without_a_reset(dut):
 
 @cocotb.test()
 async def without_a_move(dut):
-    check = checker(dut)
     Clock(dut.clk, 10, unit="ns").start()
     dut.srst.value = 1
+    await FallingEdge(dut.clk)
+    check = checker(dut)
     for _ in range(20):
         await FallingEdge(dut.clk)
     report = check.finish()
