@@ -14,7 +14,8 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
 /// Returns the ports of a model's circuit, and the ports that a map leaves out: path, direction,
-/// width, and the expression of the map or an empty one.
+/// width, and the name in the design: the
+/// expression of the map, or the name in Verilog.
 ///
 /// A map is the path of a file, or its text with a name for messages.
 #[pyfunction]
@@ -39,8 +40,8 @@ pub fn bound_ports(
             PortDirection::Out => "out",
         };
         let partner = bound.ports.iter().find(|(path, _)| *path == signal.path);
-        let expression = partner.map_or(String::new(), |(_, expression)| expression.clone());
-        Some((signal.path.clone(), direction, signal.width(), expression))
+        let name = partner.map_or(&signal.verilog, |(_, expression)| expression);
+        Some((signal.path.clone(), direction, signal.width(), name.clone()))
     });
     let ports = ports.filter(|port| !bound.left.contains(&port.0)).collect();
     Ok((ports, bound.left))

@@ -135,7 +135,9 @@ def test_a_signal_stands_for_its_name(counter):
     counter[period] = 7
     assert counter["period"] == counter[period] == 7
     other = mr.Model("enable_counter", width=9)
-    with pytest.raises(ValueError, match="the handle belongs to another circuit than this enable_counter"):
+    with pytest.raises(
+        ValueError, match="the handle belongs to another circuit than this enable_counter"
+    ):
         other[period]
 
 
@@ -175,7 +177,9 @@ def test_a_snapshot_goes_back(counter):
     counter.step(10)
     counter.restore(then)
     assert (counter.tick, counter["count"], counter["period"], then.tick) == (60, 60, 100, 60)
-    with pytest.raises(ValueError, match="the snapshot belongs to another circuit than this enable_counter"):
+    with pytest.raises(
+        ValueError, match="the snapshot belongs to another circuit than this enable_counter"
+    ):
         mr.Model("enable_counter", width=9).restore(then)
 
 

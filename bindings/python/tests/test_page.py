@@ -36,7 +36,9 @@ def test_the_example_passes():
 def test_the_example_finds_its_fault():
     done = example("--fault")
     assert done.returncode == 1
-    assert re.match(r"FAIL: tick \d+: enable: design (True|False), model (True|False); ", done.stderr)
+    assert re.match(
+        r"FAIL: tick \d+: enable: design (True|False), model (True|False); ", done.stderr
+    )
 
 
 def test_the_page_begins_with_five_commands():

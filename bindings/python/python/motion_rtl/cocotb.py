@@ -120,7 +120,7 @@ class Checker:
         reads, slices, wrong = [], [], []
         for path, _, width, expression in ports:
             try:
-                read, digits = _read(dut, expression or path.replace(".", "_"), width)
+                read, digits = _read(dut, expression, width)
             except ValueError as error:
                 wrong.append(f"{model.name}.{path}: {error}")
             else:
@@ -215,12 +215,9 @@ def _read(
     assert parts is not None
     inverts, name, high, low = parts.groups()
     handle = _find(dut, name)
-    try:
-        digits = len(handle)
-    except TypeError:
-        digits = 1
+    read, digits = _digits(handle)
     first, end = 0, digits
-    if high is not None:
+    if high is not None and digits > 1:
         left, step = handle.range.left, 1 if handle.range.direction == "to" else -1
         first = (int(high) - left) * step
         end = (int(low if low is not None else high) - left) * step + 1
@@ -228,7 +225,7 @@ def _read(
             raise ValueError(f"{name} of the design is {handle.range}; allowed: bits of it")
     if end - first != width:
         raise ValueError(f"has {width} bits, but {expression} of the design has {end - first}")
-    return _digits(handle, digits), (inverts == "~", first, end)
+    return read, (inverts == "~", first, end)
 
 
 def _find(dut: SimHandleBase, name: str) -> SimHandleBase:
@@ -242,13 +239,14 @@ def _find(dut: SimHandleBase, name: str) -> SimHandleBase:
         raise ValueError(text) from None
 
 
-def _digits(handle: SimHandleBase, width: int) -> Callable[[], str]:
-    """Return a function that reads the binary digits of a signal, the highest first."""
-    if isinstance(handle, (LogicObject, LogicArrayObject, PackedObject)):
-        # The digits of which cocotb makes a value; that takes longer than the comparison.
-        return handle._handle.get_signal_val_binstr
-    # An enumeration or an integer.
-    return lambda: format(int(handle.value) & (1 << width) - 1, f"0{width}b")
+def _digits(handle: SimHandleBase) -> tuple[Callable[[], str], int]:
+    """Return a function that reads the digits of a signal, the highest first, and their number."""
+    if not isinstance(handle, (LogicObject, LogicArrayObject, PackedObject)):
+        kind = type(handle).__name__.removesuffix("Object")
+        raise ValueError(f"{handle._name} of the design is a {kind}; allowed: one or more bits")
+    digits = 1 if isinstance(handle, LogicObject) else len(handle)
+    # Making a value of the digits would take longer than the comparison.
+    return handle._handle.get_signal_val_binstr, digits
 
 
 def _reset(
@@ -263,7 +261,10 @@ def _reset(
             reset = _find(dut, "rst")
         elif isinstance(reset, str):
             reset = _find(dut, reset.removeprefix("!"))
+        read, digits = _digits(reset)
+        if digits != 1:
+            raise ValueError(f"{reset._name} of the design has {digits} bits; allowed: 1")
     except ValueError as error:
         wrong.append(f"reset: {error}")
         return lambda: "0", False
-    return _digits(reset, 1), inverts
+    return read, inverts

@@ -7,7 +7,7 @@ import cocotb
 import pytest
 from cocotb.clock import Clock
 from cocotb.handle import Force, Release
-from cocotb.triggers import FallingEdge
+from cocotb.triggers import FallingEdge, Timer
 from cocotb.types import Logic, LogicArray
 
 import motion_rtl as mr
@@ -76,6 +76,14 @@ async def without_a_move(dut):
 
 
 @cocotb.test()
+async def without_a_clock(dut):
+    check = checker(dut)
+    await Timer(1, unit="us")
+    report = check.finish()
+    assert report.text.startswith("VACUOUS: there was no clock edge"), report
+
+
+@cocotb.test()
 async def without_an_output(dut):
     check = checker(dut, leave=["step"])
     await play(dut)
@@ -121,7 +129,9 @@ async def first_difference(dut):
     report = check.finish()
     assert report.verdict == "FAIL", report
     lines = report.first.splitlines()
-    assert lines[0] == "first difference in tick 300:" and lines[1].startswith("  step: design "), report
+    assert lines[0] == "first difference in tick 300:" and lines[1].startswith("  step: design "), (
+        report
+    )
     ticks = [line.split() for line in lines if line.startswith("tick ")][0]
     assert ticks[1:] == [str(tick) for tick in range(293, 301)]
     assert "waves of the model, ticks 200 to 399: around.fst" in report.first, report
@@ -138,13 +148,19 @@ async def mistakes(dut):
     refused(r"unit_law.period: the design step_channel has no period; .*allowed: a pair", map={})
     refused("i_next_lim; near it: i_next_limit", map=MAP | {"period": "i_next_lim"})
     refused("has 16 bits, but lap of the design has 1", map=MAP | {"period": "lap"})
-    refused(r"has 16 bits, but i_next_half\[7:0\] of the design has 8",
-            map=MAP | {"period": "i_next_half[7:0]"})
-    refused(r"i_next_half of the design is .*15.*allowed: bits of it",
-            map=MAP | {"period": "i_next_half[16:1]"})
+    refused(
+        r"has 16 bits, but i_next_half\[7:0\] of the design has 8",
+        map=MAP | {"period": "i_next_half[7:0]"},
+    )
+    refused(
+        r"i_next_half of the design is .*15.*allowed: bits of it",
+        map=MAP | {"period": "i_next_half[16:1]"},
+    )
     refused("no signal of unit_law is called so", map=MAP | {"stp": "o_step_n"})
     refused("leave: stp is not a port of unit_law; did you mean step?", leave=["stp"])
     refused("reset: the design step_channel has no rst", reset=None)
+    refused("reset: i_next_half of the design has 16 bits; allowed: 1", reset="i_next_half")
+    refused("u_timer of the design is a Hierarchy; allowed: one", map=MAP | {"period": "u_timer"})
     refused("nothing.toml", map="nothing.toml")
     with pytest.raises(KeyError, match="did you mean unit_law"):
         mr.cocotb.Checker(dut, "unit_lw", clock=dut.clk)
