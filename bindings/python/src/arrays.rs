@@ -7,9 +7,9 @@ use motion_rtl::engine::InputError;
 use motion_rtl::netlist::{Kind, Shape};
 use motion_rtl::sim::{Handle, ModelError, SignalRef};
 use numpy::{PyArray1, PyArrayMethods};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::{PyMemoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyInt;
+use pyo3::types::{IntoPyDict, PyInt};
 
 /// Values of one input port in a run.
 pub enum Values {
@@ -70,7 +70,10 @@ impl Values {
         if dimensions == 0 {
             return number(&array.call_method0("item")?).map(Values::Constant);
         }
-        let whole = |dtype: &str| array.call_method1("astype", (dtype,));
+        let whole = |dtype: &str| {
+            let options = [("copy", false)].into_py_dict(value.py())?;
+            array.call_method("astype", (dtype,), Some(&options))
+        };
         Ok(match kind.as_str() {
             "u" => Values::Unsigned(numbers::<u64>(&whole("uint64")?)?),
             _ => Values::Signed(numbers::<i64>(&whole("int64")?)?),
@@ -208,17 +211,46 @@ fn port(model: &mut Model, key: &Key<'_>) -> Result<Handle, ModelError> {
     Ok(handle)
 }
 
-/// Returns a column of a run as an array: `bool` for a bit, else `uint64` or `int64`.
-pub fn column(py: Python<'_>, kind: Kind, words: Vec<u64>) -> Bound<'_, PyAny> {
-    match kind {
-        Kind::Bit => {
-            let bits = words.into_iter().map(|word| word != 0).collect();
-            PyArray1::<bool>::from_vec(py, bits).into_any()
+/// Values of a watched signal, tick by tick.
+pub enum Column {
+    Bits(Vec<bool>),
+    Signed(Vec<i64>),
+    Unsigned(Vec<u64>),
+}
+
+impl Column {
+    /// Returns an empty column with room for some ticks.
+    pub fn new(kind: Kind, ticks: usize) -> PyResult<Self> {
+        Ok(match kind {
+            Kind::Bit => Column::Bits(room(ticks)?),
+            Kind::Signed => Column::Signed(room(ticks)?),
+            Kind::Unsigned => Column::Unsigned(room(ticks)?),
+        })
+    }
+
+    /// Appends words, which a signed signal has as two's complement.
+    pub fn extend(&mut self, words: &[u64]) {
+        match self {
+            Column::Bits(bits) => bits.extend(words.iter().map(|word| *word != 0)),
+            Column::Signed(numbers) => numbers.extend(words.iter().map(|word| *word as i64)),
+            Column::Unsigned(numbers) => numbers.extend_from_slice(words),
         }
-        Kind::Unsigned => PyArray1::from_vec(py, words).into_any(),
-        Kind::Signed => {
-            let numbers = words.into_iter().map(|word| word as i64).collect();
-            PyArray1::<i64>::from_vec(py, numbers).into_any()
+    }
+
+    /// Returns the column as an array: `bool`, `int64` or `uint64`.
+    pub fn array(self, py: Python<'_>) -> Bound<'_, PyAny> {
+        match self {
+            Column::Bits(bits) => PyArray1::from_vec(py, bits).into_any(),
+            Column::Signed(numbers) => PyArray1::from_vec(py, numbers).into_any(),
+            Column::Unsigned(numbers) => PyArray1::from_vec(py, numbers).into_any(),
         }
+    }
+}
+
+fn room<T>(ticks: usize) -> PyResult<Vec<T>> {
+    let mut values = Vec::new();
+    match values.try_reserve_exact(ticks) {
+        Ok(()) => Ok(values),
+        Err(error) => Err(PyMemoryError::new_err(error.to_string())),
     }
 }

@@ -1,6 +1,6 @@
 //! Models.
 
-use crate::arrays::{Driven, Input, column, length};
+use crate::arrays::{Column, Driven, Input, length};
 use crate::errors::exception;
 use crate::key::{Key, number, ticks};
 use crate::settings;
@@ -8,10 +8,8 @@ use crate::shared::Shared;
 use crate::signal::{Signal, value};
 use crate::snapshot::Snapshot;
 use motion_rtl::Model as Rtl;
-use motion_rtl::netlist::Kind;
 use motion_rtl::registry::Pair;
 use motion_rtl::sim::{self, Handle, ModelError, PortDirection, SignalInfo};
-use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyList, PyMapping, PyMappingProxy, PyString};
@@ -258,31 +256,22 @@ impl Model {
         let ticks = ticks.map(crate::key::ticks).transpose()?;
         let ticks = length(&driven, ticks)?;
         let (names, keys): (Vec<_>, Vec<_>) = self.watched(py, watch)?.into_iter().unzip();
-        let mut columns = Vec::new();
-        for _ in &keys {
-            let mut column: Vec<u64> = Vec::new();
-            let room = column.try_reserve_exact(ticks);
-            room.map_err(|error| PyMemoryError::new_err(error.to_string()))?;
-            columns.push(column);
-        }
-
         struct Running {
             driven: Driven,
             watched: Vec<Handle>,
-            kinds: Vec<Kind>,
-            columns: Vec<Vec<u64>>,
+            columns: Vec<Column>,
         }
         let begin = |model: &mut Rtl| {
             let watched = keys.iter().map(|key| sim::SignalRef::handle(key, model));
             let watched: Vec<_> = watched.collect::<Result<_, _>>().map_err(exception)?;
-            let shapes = watched.iter().map(|&handle| model.shape(handle));
-            let kinds = shapes.map(|shape| shape.map(|shape| shape.kind));
-            let kinds: Result<Vec<_>, _> = kinds.collect();
+            let column = |&handle| {
+                let shape = model.shape(handle).map_err(exception)?;
+                Column::new(shape.kind, ticks)
+            };
             Ok(Running {
-                kinds: kinds.map_err(exception)?,
+                columns: watched.iter().map(column).collect::<PyResult<_>>()?,
                 driven: Driven::begin(model, driven)?,
                 watched,
-                columns,
             })
         };
         let piece = |model: &mut Rtl, running: &mut Running, piece: Range<u64>| {
@@ -293,15 +282,15 @@ impl Model {
                 .collect();
             let parts = model.play(piece.len(), &inputs, &running.watched)?;
             for (column, part) in running.columns.iter_mut().zip(&parts) {
-                column.extend_from_slice(part);
+                column.extend(part);
             }
             Ok(())
         };
         let run = self.shared.run(py, ticks as u64, begin, piece)?;
 
         let arrays = PyDict::new(py);
-        for ((name, kind), words) in names.into_iter().zip(run.kinds).zip(run.columns) {
-            arrays.set_item(name, column(py, kind, words))?;
+        for (name, column) in names.into_iter().zip(run.columns) {
+            arrays.set_item(name, column.array(py))?;
         }
         Ok(arrays)
     }
