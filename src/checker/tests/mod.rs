@@ -204,6 +204,15 @@ fn comparing_nothing_or_nothing_that_moves_is_vacuous() {
         "VACUOUS: no output port moved in 9 ticks"
     );
 
+    // The tick of the reset is not compared: a move from it does not count.
+    let mut once = made(&Options::default());
+    once.edge_with(true, |words| words[1] ^= 1);
+    once.edges(9);
+    assert_eq!(
+        vacuous(&mut once),
+        "VACUOUS: no output port moved in 9 ticks"
+    );
+
     let mut left = made(&Options {
         leave: vec!["enable".into()],
         from_power_on: true,
