@@ -32,7 +32,7 @@ def checker(name, ticks):
     model.reset()
     ports, _ = _bound_ports(model)
     digits = [f"{model[path] % (1 << width):0{width}b}" for path, _, width, _ in ports]
-    checker = _Checker(model, [(False, 0, width) for _, _, width, _ in ports], [], True, "no.vcd")
+    checker = _Checker(model, [(False, 0, width) for _, _, width, _ in ports], [], True, None)
 
     def edges():
         for _ in range(ticks):
