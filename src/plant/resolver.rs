@@ -14,11 +14,14 @@ settings! {
     #[derive(Copy)]
     pub struct ResolverParameters {
         /// Pole pairs of a resolver, the pitches of a turn; each has whole counts.
-        pub pole_pairs: u32 = 4, in POLE_PAIRS_RANGE;
+        pub pole_pairs: u32 = 4, in POLE_PAIRS_RANGE,
+            "with detector = \"resolver\" alone";
         /// Offset of a resolver's sine channel at an angle of 0, as a part of the amplitude.
-        pub sine_offset: f64 = 0.0, in WINDING_RANGE;
+        pub sine_offset: f64 = 0.0, in WINDING_RANGE,
+            "with detector = \"resolver\" alone";
         /// Excess of a resolver's sine amplitude over the cosine amplitude, as a part of it.
-        pub gain_mismatch: f64 = 0.0, in WINDING_RANGE;
+        pub gain_mismatch: f64 = 0.0, in WINDING_RANGE,
+            "with detector = \"resolver\" alone";
     }
 }
 

@@ -33,7 +33,8 @@ settings! {
         /// Largest torque at standstill.
         pub holding_torque_nm [required]: f64 = 1.0, in POSITIVE;
         /// Inertia of rotor and load.
-        pub inertia_kg_m2 [required]: f64 = 5e-5, in POSITIVE;
+        pub inertia_kg_m2 [required]: f64 = 5e-5, in POSITIVE,
+            "enough for the torque and the clock";
         /// Torque per speed, viscous.
         pub damping_nm_s: f64 = 0.0, in FROM_ZERO;
         /// Coulomb friction; 0 for none.

@@ -99,7 +99,10 @@ fn every_variant_is_made() {
     let refused: Vec<String> = refused.collect();
     assert_eq!(
         refused,
-        ["ram_time_lead: form=early_difference: [Ok(false), Ok(false)]"]
+        [
+            "ram_time_lead: form=early_difference: [Ok(false), Ok(false)]",
+            "ram_compensator: lead_from.time.form=early_difference: [Ok(false), Ok(false)]",
+        ]
     );
 }
 

@@ -84,7 +84,8 @@ settings! {
         pub acceleration_mm_per_s2: Option<f64> = None, in ACCELERATION_RANGE;
         /// Time from rest to each feed and to the rapid speed, but for the jerk time, in place of an
         /// acceleration.
-        pub acceleration_time_ms: Option<f64> = None, in ACCELERATION_TIME_RANGE_MS;
+        pub acceleration_time_ms: Option<f64> = None, in ACCELERATION_TIME_RANGE_MS,
+            "not beside acceleration_mm_per_s2";
         /// Largest acceleration of the axes; without it they have no limit of their own.
         pub axis_acceleration_mm_per_s2: Option<EachAxis> = None, within ACCELERATION_RANGE;
         /// Largest acceleration across the path, on arcs.

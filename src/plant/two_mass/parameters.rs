@@ -24,7 +24,8 @@ settings! {
         /// Encoder counts per revolution of the motor: four times its lines.
         pub counts_per_rev [required]: f64 = 10_000.0, in POSITIVE;
         /// Travel of the load per revolution of the motor: lead of the screw, with its gear.
-        pub mm_per_rev [required]: f64 = 10.0, in POSITIVE;
+        pub mm_per_rev [required]: f64 = 10.0, in POSITIVE,
+            "counts_per_rev divided by counts_per_mm";
         /// Damping of the shaft; 0 for none.
         pub damping_nm_s_per_rad: f64 = 0.0, in FROM_ZERO;
         /// Backlash: angle that the shaft turns without torque, from one flank to the other; 0 for

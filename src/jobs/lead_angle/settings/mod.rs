@@ -181,7 +181,8 @@ settings! {
         /// counts, 16 to 131,072; or a resolver with CK as its conversions, of 19 ticks at least.
         pub detector: Detector = Detector::default();
         /// Excess of an absolute encoder's sampling clock over CK.
-        pub sampling_clock_ppm: f64 = 0.0, in SAMPLING_RANGE_PPM;
+        pub sampling_clock_ppm: f64 = 0.0, in SAMPLING_RANGE_PPM,
+            "with detector = \"absolute\" alone";
         /// Source of the lead: the way of the last Δt, or, as in Fig. 7, the measured speed times a
         /// parameter, or a memory by speed. A log is predicted with `time` or `speed`.
         pub lead: LeadBy = LeadBy::default();
