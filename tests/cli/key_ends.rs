@@ -5,7 +5,10 @@ use serde_json::Value;
 use std::time::Duration;
 
 /// Time after which a run has begun: its settings are accepted.
-const BEGUN: Duration = Duration::from_secs(3);
+const BEGUN: Duration = Duration::from_millis(500);
+
+/// Longest time until a setting is refused.
+const REFUSED: Duration = Duration::from_secs(20);
 
 /// Jobs with a scenario each, and those of the tables that have no defaults.
 const JOBS: [(&str, &str, &str); 9] = [
@@ -109,13 +112,13 @@ fn of_job(bench: &Bench, job: &str, table: &str) -> Vec<Number> {
     found
 }
 
-/// Runs a scenario with a value until it has begun; its exit code, and the first line of what it
+/// Runs a scenario with a value for a time, unless it ends before; its exit code, and the first line of what it
 /// says.
-fn begun(bench: &Bench, scenario: &str, set: &str) -> Option<(i32, String)> {
+fn begun(bench: &Bench, scenario: &str, set: &str, time: Duration) -> Option<(i32, String)> {
     let arguments = [
         "run", scenario, "--set", set, "--no-vcd", "--out", "o", "--quiet",
     ];
-    let output = bench.command(&arguments).timeout(BEGUN).output();
+    let output = bench.command(&arguments).timeout(time).output();
     let output = output.expect("the program starts");
     let said = String::from_utf8_lossy(&output.stderr);
     let first = said.lines().find(|line| line.starts_with("error: "));
@@ -126,7 +129,7 @@ fn begun(bench: &Bench, scenario: &str, set: &str) -> Option<(i32, String)> {
 fn refused(bench: &Bench, scenario: &str, number: &Number) {
     for value in number.outside() {
         let set = number.set(&value);
-        let begun = begun(bench, scenario, &set);
+        let begun = begun(bench, scenario, &set, REFUSED);
         let (code, said) = begun.unwrap_or_else(|| panic!("{scenario} {set} runs"));
         let of_key = said.starts_with(&format!("error: --set: {}: ", number.key));
         assert!(code == 2 && of_key, "{scenario} {set}: {code}: {said}");
@@ -172,7 +175,7 @@ fn ends_of_the_schema_run_or_are_refused_as_settings() {
             let range = row.expect("a row")["range"].as_str().unwrap().to_owned();
             for value in number.inside() {
                 let set = number.set(&value);
-                let Some((2, said)) = begun(&bench, &scenario, &set) else {
+                let Some((2, said)) = begun(&bench, &scenario, &set, BEGUN) else {
                     continue;
                 };
                 let own = said.starts_with(&format!("error: --set: {}: ", number.key));
