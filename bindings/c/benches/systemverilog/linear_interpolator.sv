@@ -1,14 +1,14 @@
 // Drives linear_interpolator with random targets and a scan every 64 ticks.
 `timescale 1ns / 1ps
 
-/* verilator lint_off PINMISSING */
-module bench (input wire clk);
+module bench (input wire clk, output wire [31:0] seen);
     reg rst = 1'b1;
     reg scan = 1'b0, hold = 1'b0, push = 1'b0, halt = 1'b0;
     reg signed [31:0] target_x = 0, target_y = 0;
     reg [31:0] speed = 0;
     reg [11:0] acceleration_time = 0, deceleration_time = 0;
-    wire ready;
+    wire signed [31:0] x, y;
+    wire start, load, ready, busy, late, refused, home;
     reg [31:0] cycle = 0, random = 32'h0123_4567;
 
     linear_interpolator dut (
@@ -24,8 +24,18 @@ module bench (input wire clk);
         .deceleration_time (deceleration_time),
         .halt (halt),
         .clear (1'b0),
-        .ready (ready)
+        .x (x),
+        .y (y),
+        .start (start),
+        .load (load),
+        .ready (ready),
+        .busy (busy),
+        .late (late),
+        .refused (refused),
+        .home (home)
     );
+    // What nobody sees would be left out.
+    assign seen = x ^ y ^ {25'd0, start, load, ready, busy, late, refused, home};
 
     always @(posedge clk) begin
         cycle <= cycle + 1;

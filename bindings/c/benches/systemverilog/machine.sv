@@ -1,8 +1,7 @@
 // Drives machine: one of its input ports changes in about every other tick.
 `timescale 1ns / 1ps
 
-/* verilator lint_off PINMISSING */
-module bench (input wire clk);
+module bench (input wire clk, output wire [31:0] seen);
     reg rst = 1'b1;
     reg [31:0] cycle = 0;
     reg [63:0] random = 64'h0123_4567_89ab_cdef;
@@ -74,6 +73,30 @@ module bench (input wire clk);
     reg [3:0] lift_write_step = 0;
     reg signed [23:0] lift_step_target = 0;
     reg [15:0] lift_step_speed = 0;
+    wire step_x;
+    wire step_y;
+    wire dir_x;
+    wire dir_y;
+    wire pulse_ready;
+    wire pulse_busy;
+    wire [31:0] counts_x;
+    wire [31:0] counts_y;
+    wire lines_ready;
+    wire lines_busy;
+    wire arcs_ready;
+    wire arcs_busy;
+    wire profile_ready;
+    wire profile_busy;
+    wire [15:0] torque_x;
+    wire [15:0] torque_y;
+    wire [30:0] position_x;
+    wire [30:0] position_y;
+    wire drive;
+    wire reverse;
+    wire [15:0] speed;
+    wire brake;
+    wire lift_busy;
+    wire fault;
 
     machine dut (
         .clk (clk),
@@ -145,8 +168,57 @@ module bench (input wire clk);
         .lift_write_target (lift_write_target),
         .lift_write_step (lift_write_step),
         .lift_step_target (lift_step_target),
-        .lift_step_speed (lift_step_speed)
+        .lift_step_speed (lift_step_speed),
+        .step_x (step_x),
+        .step_y (step_y),
+        .dir_x (dir_x),
+        .dir_y (dir_y),
+        .pulse_ready (pulse_ready),
+        .pulse_busy (pulse_busy),
+        .counts_x (counts_x),
+        .counts_y (counts_y),
+        .lines_ready (lines_ready),
+        .lines_busy (lines_busy),
+        .arcs_ready (arcs_ready),
+        .arcs_busy (arcs_busy),
+        .profile_ready (profile_ready),
+        .profile_busy (profile_busy),
+        .torque_x (torque_x),
+        .torque_y (torque_y),
+        .position_x (position_x),
+        .position_y (position_y),
+        .drive (drive),
+        .reverse (reverse),
+        .speed (speed),
+        .brake (brake),
+        .lift_busy (lift_busy),
+        .fault (fault)
     );
+    // What nobody sees would be left out.
+    assign seen = {31'd0, step_x}
+        ^ {31'd0, step_y}
+        ^ {31'd0, dir_x}
+        ^ {31'd0, dir_y}
+        ^ {31'd0, pulse_ready}
+        ^ {31'd0, pulse_busy}
+        ^ counts_x
+        ^ counts_y
+        ^ {31'd0, lines_ready}
+        ^ {31'd0, lines_busy}
+        ^ {31'd0, arcs_ready}
+        ^ {31'd0, arcs_busy}
+        ^ {31'd0, profile_ready}
+        ^ {31'd0, profile_busy}
+        ^ {16'd0, torque_x}
+        ^ {16'd0, torque_y}
+        ^ {1'd0, position_x}
+        ^ {1'd0, position_y}
+        ^ {31'd0, drive}
+        ^ {31'd0, reverse}
+        ^ {16'd0, speed}
+        ^ {31'd0, brake}
+        ^ {31'd0, lift_busy}
+        ^ {31'd0, fault};
 
     always @(posedge clk) begin
         cycle <= cycle + 1;
