@@ -1,11 +1,11 @@
 mod waves;
 
 use super::*;
-use crate::registry::Pair;
 
-fn pairs(settings: &str) -> Vec<Pair> {
+fn model(circuit: &str, settings: &str) -> Model {
     let settings = settings.split_whitespace();
-    settings.map(|pair| pair.parse().unwrap()).collect()
+    let pairs: Vec<_> = settings.map(|pair| pair.parse().unwrap()).collect();
+    Model::new(circuit, &pairs).unwrap()
 }
 
 /// Checker beside a design that is another model of the same circuit.
@@ -16,7 +16,7 @@ struct Beside {
 
 impl Beside {
     fn new(circuit: &str, settings: &str, options: &Options) -> Self {
-        let made = || Model::new(circuit, &pairs(settings)).unwrap();
+        let made = || model(circuit, settings);
         Beside {
             design: made(),
             checker: Checker::new(made(), options).unwrap(),
@@ -339,7 +339,7 @@ fn ports_that_are_left_out_have_no_place() {
         from_power_on: true,
         waves: None,
     };
-    let model = Model::new("unit_law", &pairs("width=16")).unwrap();
+    let model = model("unit_law", "width=16");
     let checker = Checker::new(model, &options).unwrap();
     let names: Vec<&str> = checker
         .ports

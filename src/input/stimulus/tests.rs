@@ -1,6 +1,5 @@
 use super::*;
 use crate::netlist::{BIT, signed, unsigned};
-use crate::trace::StimulusFile;
 
 fn ports() -> [InputPort; 4] {
     let port = |name: &str, shape| InputPort {
@@ -149,25 +148,6 @@ fn words_are_those_of_a_stimulus_file() {
     assert_eq!(inputs.ticks(), ticks.len());
     for (tick, (ports, rst)) in ticks.iter().enumerate() {
         assert_eq!(inputs.tick(tick), Some((&ports[..], *rst)));
-    }
-}
-
-#[test]
-fn what_the_crate_writes_is_read_as_it_was() {
-    let circuit = crate::circuits::blocks::EnableCounter { width: 11 };
-    let mut file = StimulusFile::new(Vec::new(), &circuit);
-    let ticks = [(0x5a3, false), (0, true), (0x7ff, true), (1, false)];
-    for (period, rst) in ticks {
-        file.line(&[period], rst).unwrap();
-    }
-    let port = InputPort {
-        name: "period".into(),
-        verilog: "period".into(),
-        shape: unsigned(11),
-    };
-    let inputs = read_words("a", &file.finish().unwrap(), &[port]).unwrap();
-    for (tick, (period, rst)) in ticks.into_iter().enumerate() {
-        assert_eq!(inputs.tick(tick), Some((&[period][..], rst)));
     }
 }
 

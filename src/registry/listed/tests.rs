@@ -111,7 +111,7 @@ fn meanings_are_those_of_the_source() {
     assert_eq!(twice, None, "two structs have one name and the same fields");
     let fresh = all.concat();
     if fresh != MEANINGS && std::env::var_os("UPDATE_NOTES").is_some_and(|value| value == "1") {
-        fs::write(root.join("src/registry/meanings.txt"), &fresh).expect("written");
+        fs::write(root.join("src/registry/listed/meanings.txt"), &fresh).expect("written");
         return;
     }
     assert!(

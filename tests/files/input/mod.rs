@@ -5,3 +5,4 @@ mod gcode;
 mod hpgl;
 mod paths;
 mod properties;
+mod stimulus;
