@@ -186,7 +186,8 @@ impl Judge {
         end
         if (differ != 0) begin
             $display(\"FAIL: ports out differ in %0d of %0d ticks\", differ, tick);
-            $display(\"motion-rtl compare {name}.vcd {name}_tb.vcd shows every signal that differs\");
+            $write(\"motion-rtl compare {name}.vcd \");
+            $display(\"{name}_tb.vcd shows every signal that differs\");
             $fatal;
         end
         $display(\"PASS: ports out are as expected in all of %0d ticks\", tick);

@@ -74,6 +74,8 @@ module enable_counter_tb;
         end
         if (differ != 0) begin
             $display("FAIL: ports out differ in %0d of %0d ticks", differ, tick);
+            $write("motion-rtl compare enable_counter.vcd ");
+            $display("enable_counter_tb.vcd shows every signal that differs");
             $fatal;
         end
         $display("PASS: ports out are as expected in all of %0d ticks", tick);
