@@ -3,8 +3,10 @@
 use super::arguments::Arguments;
 use super::job::Job;
 use super::source::Source;
+use super::traces::DIRECTORY;
 use super::viewer::Viewer;
 use super::{Failure, progress};
+use std::path::Path;
 
 /// The key that `--beside` sets.
 const BESIDE: &str = "beside=true";
@@ -27,6 +29,11 @@ fn play(arguments: &Arguments) -> Result<(), Failure> {
     let mut source = Source::read(&input)?;
     if let Some(series) = &arguments.series {
         source.spare_inputs("--series", &series.path, &input)?;
+    }
+    let directory = arguments.out.as_deref().unwrap_or(Path::new(DIRECTORY));
+    for extension in ["vcd", "fst", "svg"] {
+        let output = directory.join(format!("{}.{extension}", source.stem));
+        source.spare_inputs("--out", &output, &input)?;
     }
     source.compares |= arguments.waves_of.is_some();
     Job::prepare(source)?.run(arguments)

@@ -19,6 +19,9 @@ use std::io;
 use std::ops::Range;
 use std::path::Path;
 
+/// Directory of the files of a run, unless `--out` names another.
+pub const DIRECTORY: &str = "waves";
+
 /// Scopes that a refusal lists.
 const MOST_SCOPES: usize = 40;
 
@@ -76,7 +79,7 @@ impl<'a> Traces<'a> {
         let Setup {
             arguments, stem, ..
         } = *setup;
-        let directory = arguments.out.as_deref().unwrap_or(Path::new("waves"));
+        let directory = arguments.out.as_deref().unwrap_or(Path::new(DIRECTORY));
         let mut files = Files::begin(directory, stem)?;
         let format = arguments.format;
         let waves = match arguments.no_vcd {

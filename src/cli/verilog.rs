@@ -14,7 +14,7 @@ use motion_rtl::sim::RunError;
 use motion_rtl::trace::Clock;
 use motion_rtl::verilog::Verilog;
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `verilog`.
 #[derive(Debug, Args)]
@@ -59,6 +59,18 @@ pub struct Arguments {
     dpi: Dpi,
 }
 
+/// Refuses to write over the stimulus that is read.
+fn spare(stimulus: &Path, written: &Path) -> Result<(), Failure> {
+    match (stimulus.canonicalize(), written.canonicalize()) {
+        (Ok(read), Ok(written)) if read == written => Err(Failure::Argument {
+            field: "--out",
+            problem: format!("{} is the input", written.display()),
+            allowed: "another directory".into(),
+        }),
+        _ => Ok(()),
+    }
+}
+
 /// Writes the circuit and, if requested, its testbench.
 pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.dpi.is_asked() {
@@ -70,6 +82,10 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
         problem: error.to_string(),
         allowed: "circuits that can be printed".into(),
     })?;
+    if let Some(path) = &arguments.stimulus {
+        let written = arguments.out.join(format!("{}.stimulus", circuit.name()));
+        spare(path, &written)?;
+    }
     let mut files = Files::begin(&arguments.out, circuit.name())?;
     let mut text = String::new();
     let name = format!("verilog {}", arguments.chosen);

@@ -528,6 +528,23 @@ fn series_that_cannot_be_had_are_refused() {
             log.display()
         ),
     );
+    std::fs::copy(bench.path("l.hpgl"), bench.path("l.svg")).unwrap();
+    let drawing = bench.path("l.svg").canonicalize().unwrap();
+    bench.refuse(
+        &[
+            "run",
+            "l.svg",
+            "--input-format",
+            "hpgl",
+            "--no-vcd",
+            "--out",
+            ".",
+        ],
+        &format!(
+            "--out: {} is the input; allowed: another file",
+            drawing.display()
+        ),
+    );
     bench.refuse(
         &["run", "l.hpgl", "--no-vcd", "--series", "l.hpgl/s.csv"],
         "--series: l.hpgl: File exists (os error 17); allowed: a file that can be written",

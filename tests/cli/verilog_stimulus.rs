@@ -50,6 +50,14 @@ fn a_stimulus_is_played() {
     bench.succeed(&[&circuit[..], &["--testbench", "3000", "--out", "a"]].concat());
     let stimulus = ["--stimulus", "a/linear_interpolator.stimulus", "--out", "b"];
     bench.succeed(&[&circuit[..], &stimulus].concat());
+    let read = bench.path("a/linear_interpolator.stimulus");
+    bench.refuse(
+        &[&circuit[..], &stimulus[..3], &["a"]].concat(),
+        &format!(
+            "--out: {} is the input; allowed: another directory",
+            read.canonicalize().unwrap().display()
+        ),
+    );
     for end in [".vcd", ".stimulus", ".expected", ".still", "_tb.v"] {
         let [random, played] = ["a", "b"].map(|folder| {
             let text = bench.read(&format!("{folder}/linear_interpolator{end}"));
