@@ -175,8 +175,10 @@ fn every_command_exists() {
             }
             // A simulator runs a design.
             ["mkdir", "-p", _] | ["cp", "rtl_notes/golden_model/*.v", ..] | ["(cd", ..] => {}
-            // Makes a drawing.
-            ["awk", .., ">", "spiral.hpgl"] | ["printf", .., ">", "slow.ngc"] => {}
+            // Make inputs, and remove them.
+            ["awk", .., ">", "spiral.hpgl"]
+            | ["printf", .., ">", "slow.ngc"]
+            | ["rm", "spiral.hpgl", "slow.ngc"] => {}
             ["cargo", "test", "--release"]
             | ["cargo", "test", "--release", "--tests", "--", "--ignored"] => {}
             ["cargo", "bench", "--bench", name] => {
