@@ -120,6 +120,29 @@ pub fn parent(path: &Path) -> &Path {
     parent.unwrap_or(Path::new("."))
 }
 
+/// Refuses an output that would replace an input; `field` is the option that names the output, and
+/// `allowed` what it may name instead.
+pub fn spare<'p>(
+    field: &'static str,
+    output: &Path,
+    inputs: impl IntoIterator<Item = &'p Path>,
+    allowed: &str,
+) -> Result<(), Failure> {
+    let Ok(output) = output.canonicalize() else {
+        // The file does not exist yet.
+        return Ok(());
+    };
+    let mut inputs = inputs.into_iter().flat_map(Path::canonicalize);
+    match inputs.any(|input| input == output) {
+        true => Err(Failure::Argument {
+            field,
+            problem: format!("{} is the input", output.display()),
+            allowed: allowed.into(),
+        }),
+        false => Ok(()),
+    }
+}
+
 impl Files {
     /// Files called `stem` in `directory`.
     pub fn begin(directory: &Path, stem: &str) -> Result<Self, Failure> {

@@ -30,6 +30,7 @@ fn play(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(series) = &arguments.series {
         source.spare_inputs("--series", &series.path, &input)?;
     }
+    // An input with a format of its own may have any extension.
     let directory = arguments.out.as_deref().unwrap_or(Path::new(DIRECTORY));
     for extension in ["vcd", "fst", "svg"] {
         let output = directory.join(format!("{}.{extension}", source.stem));

@@ -1,8 +1,8 @@
 //! Input of `run` and `table`: a scenario and its input file.
 
-use super::Failure;
 use super::given::{Format, Given};
 use super::shipped::{self, SHIPPED, Shipped};
+use super::{Failure, files};
 use clap::{Args, value_parser};
 use motion_rtl::input::position_log::{self, Columns, PositionLog};
 use motion_rtl::input::{Drawing, Fault, Kind, Language, Options, read_path_with};
@@ -254,10 +254,6 @@ impl Source {
         output: &Path,
         given: &Input,
     ) -> Result<(), Failure> {
-        let Ok(output) = output.canonicalize() else {
-            // The file does not exist yet.
-            return Ok(());
-        };
         let scenario = &self.loaded.scenario;
         let patterns = match scenario {
             Scenario::PulseInterpolator(keys) => &keys.settings.pattern[..],
@@ -266,15 +262,7 @@ impl Source {
         let tables = patterns.iter().map(|pattern| pattern.table.as_path());
         let inputs = given.input.as_deref().into_iter();
         let inputs = inputs.chain(scenario.input().map(PathBuf::as_path));
-        let mut inputs = inputs.chain(tables).flat_map(Path::canonicalize);
-        match inputs.any(|input| input == output) {
-            true => Err(Failure::Argument {
-                field,
-                problem: format!("{} is the input", output.display()),
-                allowed: "another file".into(),
-            }),
-            false => Ok(()),
-        }
+        files::spare(field, output, inputs.chain(tables), "another file")
     }
 
     /// The input, where its extension and nothing else chose the circuit.

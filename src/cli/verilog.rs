@@ -3,7 +3,7 @@
 use super::chosen::Chosen;
 use super::dpi::{self, Dpi};
 use super::export::Export;
-use super::files::Files;
+use super::files::{self, Files};
 use super::{Failure, print, warn};
 use clap::Args;
 use motion_rtl::check::{Drive, Untoggled, play};
@@ -14,7 +14,7 @@ use motion_rtl::sim::RunError;
 use motion_rtl::trace::Clock;
 use motion_rtl::verilog::Verilog;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Arguments of `verilog`.
 #[derive(Debug, Args)]
@@ -59,18 +59,6 @@ pub struct Arguments {
     dpi: Dpi,
 }
 
-/// Refuses to write over the stimulus that is read.
-fn spare(stimulus: &Path, written: &Path) -> Result<(), Failure> {
-    match (stimulus.canonicalize(), written.canonicalize()) {
-        (Ok(read), Ok(written)) if read == written => Err(Failure::Argument {
-            field: "--out",
-            problem: format!("{} is the input", written.display()),
-            allowed: "another directory".into(),
-        }),
-        _ => Ok(()),
-    }
-}
-
 /// Writes the circuit and, if requested, its testbench.
 pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.dpi.is_asked() {
@@ -84,7 +72,7 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     if let Some(path) = &arguments.stimulus {
         let written = arguments.out.join(format!("{}.stimulus", circuit.name()));
-        spare(path, &written)?;
+        files::spare("--out", &written, [path.as_path()], "another directory")?;
     }
     let mut files = Files::begin(&arguments.out, circuit.name())?;
     let mut text = String::new();
