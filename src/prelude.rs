@@ -3,7 +3,7 @@
 pub use crate::check::{Fault, Invariants, Outcome, Specified, prove, reach, require};
 pub use crate::hdl::Record as _;
 pub use crate::hdl::{
-    Bit, Circuit, Cut, Edge, I, Image, Moment, Nothing, Part, Property, Ram, Seen, Settled, Shift,
-    U, Value, View, Wire, Written, choice, log2, records, settle_each, signals, zero,
+    Bit, Circuit, Cut, Edge, I, Image, Moment, Nothing, Open, Part, Property, Ram, Seen, Settled,
+    Shift, U, Value, View, Wire, Words, Written, choice, log2, records, settle_each, signals, zero,
 };
 pub use crate::sim::Simulator;

@@ -1,6 +1,7 @@
 use super::blamed;
 use crate::engine::{Engine, EngineError};
 use crate::hdl::{Circuit, Registers};
+use crate::netlist::Claim;
 use crate::sim::{Elaborated, Observer, RunError, Sample};
 use std::fmt;
 use std::ops::ControlFlow;
@@ -45,17 +46,36 @@ enum Holds<'f, C: Circuit> {
     Step(Box<Step<'f, C>>),
 }
 
-/// Names of the invariants, and signals of those that are the circuit's own. Does not depend on
-/// the circuit's type.
+/// Names of the invariants, and the circuit's own statements. Does not depend on the circuit's
+/// type.
 #[derive(Debug, Default)]
 struct Names {
     /// Names in the order of the checks.
     all: Vec<String>,
-    /// Signals of the circuit's own properties; these come first, in their order. A step property
-    /// is about the coming edge.
-    own: Vec<&'static [&'static str]>,
+    /// The circuit's own properties; these come first, in their order. A step property is about the
+    /// coming edge.
+    own: Vec<Own>,
+    /// Statements that restrict the inputs.
+    given: Vec<Given>,
     /// True if another property reads the registers after the edge.
     look_ahead: bool,
+}
+
+/// Statement that restricts the inputs.
+#[derive(Debug)]
+struct Given {
+    /// Index among the statements of the circuit.
+    index: usize,
+    name: &'static str,
+    claim: Claim,
+}
+
+/// Property of the circuit's own.
+#[derive(Debug)]
+struct Own {
+    /// Index among the statements of the circuit.
+    index: usize,
+    signals: &'static [&'static str],
 }
 
 impl Names {
@@ -65,26 +85,44 @@ impl Names {
             return names;
         };
         let module = model.design().modules.last();
-        for known in module.map_or(&[][..], |module| &module.assertions) {
-            names.all.push(known.name.to_owned());
-            names.own.push(known.signals);
+        let known = module.map_or(&[][..], |module| &module.assertions);
+        for (index, known) in known.iter().enumerate() {
+            if known.claim.is_proved() {
+                names.all.push(known.name.to_owned());
+                names.own.push(Own {
+                    index,
+                    signals: known.signals,
+                });
+            } else {
+                names.given.push(Given {
+                    index,
+                    name: known.name,
+                    claim: known.claim,
+                });
+            }
         }
         names
     }
 
-    /// Returns the first violated property of the circuit's own.
+    /// Returns the first violated property of the circuit's own. Inputs that break an assumption
+    /// are a violation too: no property is promised for them.
     fn violated(&self, engine: &Engine) -> Option<(&str, Fault)> {
-        let index = (0..self.own.len()).find(|index| !engine.property(*index))?;
+        let mut given = self.given.iter();
+        let broken = |given: &&Given| given.claim == Claim::Given && !engine.property(given.index);
+        if let Some(given) = given.find(broken) {
+            let fault = Fault {
+                signals: Vec::new(),
+                message: "assumed of the inputs, which break it".to_owned(),
+            };
+            return Some((given.name, fault));
+        }
+        let mut own = self.own.iter().zip(&self.all);
+        let (own, name) = own.find(|(own, _)| !engine.property(own.index))?;
         let fault = Fault {
-            signals: self.own[index].iter().map(|&name| name.into()).collect(),
+            signals: own.signals.iter().map(|&name| name.into()).collect(),
             message: "does not hold".to_owned(),
         };
-        Some((&self.all[index], fault))
-    }
-
-    /// Returns the indices of the circuit's own properties, if there are no others.
-    fn only_own(&self) -> Option<Vec<usize>> {
-        (self.own.len() == self.all.len()).then(|| (0..self.own.len()).collect())
+        Some((name, fault))
     }
 }
 
@@ -148,9 +186,19 @@ impl<'f, C: Circuit> Invariants<'f, C> {
         self.names.all.iter().map(String::as_str)
     }
 
-    /// Returns the indices of the circuit's own properties, if there are no others.
-    pub(super) fn own(&self) -> Option<Vec<usize>> {
-        self.names.only_own()
+    /// Returns the indices of the circuit's own properties.
+    pub(super) fn own(&self) -> Vec<usize> {
+        self.names.own.iter().map(|own| own.index).collect()
+    }
+
+    /// Returns the indices of the circuit's statements that restrict the inputs.
+    pub(super) fn given(&self) -> Vec<usize> {
+        self.names.given.iter().map(|given| given.index).collect()
+    }
+
+    /// True if not all properties are the circuit's own.
+    pub(super) fn has_others(&self) -> bool {
+        !self.others.is_empty()
     }
 
     /// True if a property reads the registers after the edge.
@@ -185,8 +233,8 @@ impl<'f, C: Circuit> Invariants<'f, C> {
 impl<C: Circuit> Invariants<'_, C> {
     /// Returns the signals that the invariants name in this tick, each with its invariant.
     pub(super) fn blamed(&self, now: &Sample<'_, C>, next: &Registers<C>) -> Vec<(String, String)> {
-        let own = self.names.own.iter().map(|signals| {
-            let signals = signals.iter().map(|&signal| signal.to_owned());
+        let own = self.names.own.iter().map(|own| {
+            let signals = own.signals.iter().map(|&signal| signal.to_owned());
             signals.collect()
         });
         let others = self.others.iter().map(|property| {

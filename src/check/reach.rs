@@ -291,6 +291,8 @@ impl<'a, C: Circuit> Reach<'a, C> {
             assumes: !self.assume.is_empty(),
             looks_ahead: self.invariants.all().look_ahead(),
             own: self.invariants.all().own(),
+            given: self.invariants.all().given(),
+            others: self.invariants.all().has_others(),
         };
         let visited = Visited::new(bits, self.bitmap_bits);
         let limits = (self.limit, self.transitions);

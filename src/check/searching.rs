@@ -44,8 +44,12 @@ pub(super) struct Searching<'j> {
     pub(super) assumes: bool,
     /// True if an invariant reads the registers after an edge.
     pub(super) looks_ahead: bool,
-    /// Indices of the circuit's own properties, if there are no others.
-    pub(super) own: Option<Vec<usize>>,
+    /// Indices of the circuit's own properties.
+    pub(super) own: Vec<usize>,
+    /// Indices of the circuit's statements that restrict the inputs.
+    pub(super) given: Vec<usize>,
+    /// True if not all properties are the circuit's own.
+    pub(super) others: bool,
 }
 
 impl Searching<'_> {
@@ -57,16 +61,16 @@ impl Searching<'_> {
         simulated: bool,
     ) -> Ended {
         let states = Packing::of(model);
-        let power_on = states.pack(&model.engine(Watch::All));
+        let power_on = states.pack(&model.engine(Watch::Stated));
         let search = Search::new(power_on, visited, limits, progress);
         let tick = match simulated {
             true => None,
-            false => Tick::of(model.flat(), self.own.as_deref().unwrap_or(&[])).ok(),
+            false => Tick::of(model.flat(), &self.own, &self.given).ok(),
         };
         let mut one = One {
             name: model.name(),
             judge: self.judge,
-            engine: Engine::straight(model.program(Watch::All)),
+            engine: Engine::straight(model.program(Watch::Stated)),
             states,
             state: None,
         };
@@ -105,9 +109,12 @@ impl Searching<'_> {
                 if self.assumes && !self.judge.possible(state, index) {
                     continue;
                 }
-                search.transitions += 1;
                 one.engine.drive_all(words);
                 one.engine.settle();
+                if self.given.iter().any(|&given| !one.engine.property(given)) {
+                    continue;
+                }
+                search.transitions += 1;
                 // Another engine makes the edge, so that the registers stay for the next inputs.
                 after.restore(one.engine.slab());
                 after.edge();
@@ -136,6 +143,7 @@ impl Searching<'_> {
         let mut cases: Vec<(usize, usize)> = Vec::with_capacity(LANES);
         let (mut before, mut given) = (Vec::with_capacity(LANES), Vec::with_capacity(LANES));
         let mut after = Vec::with_capacity(LANES);
+        let mut excluded = Vec::with_capacity(LANES);
         let mut transitions = 0;
         let mut state = search.state();
         loop {
@@ -159,16 +167,26 @@ impl Searching<'_> {
             }
             after.clone_from(&before);
             let mut broken = None;
-            ticks.run(&mut after, &given, |lane| broken = broken.or(Some(lane)));
+            excluded.clear();
+            ticks.run(
+                &mut after,
+                &given,
+                |lane| broken = broken.or(Some(lane)),
+                |lane| excluded.push(lane),
+            );
+            let mut excluded = excluded.iter().copied().peekable();
             for (lane, &(from, index)) in cases.iter().enumerate() {
                 while search.at() < from {
                     search.tried(transitions);
                     transitions = search.transitions;
                     state = search.state();
                 }
+                if excluded.next_if_eq(&lane).is_some() {
+                    continue;
+                }
                 search.transitions += 1;
                 let ports = &self.ports[index];
-                if self.own.is_none() {
+                if self.others {
                     let next = match self.looks_ahead {
                         true => Next::State(after[lane]),
                         false => Next::Nobody,

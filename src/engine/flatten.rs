@@ -66,6 +66,13 @@ struct Part<'d> {
     state: State,
 }
 
+/// Nodes of a part's properties under construction.
+struct Stated {
+    part: usize,
+    /// Nodes made so far: of this tick, and of signals after its edge.
+    made: [Vec<Option<Id>>; 2],
+}
+
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum State {
     Waiting,
@@ -199,13 +206,8 @@ impl<'d> Flattening<'d> {
     fn settle(&mut self, part: usize) -> Result<(), EngineError> {
         let module = self.parts[part].module;
         self.parts[part].state = State::Settling;
-        let ports: Vec<usize> = (0..module.signals.len())
-            .filter(|&signal| {
-                let signal = &module.signals[signal];
-                signal.role == Role::Input && signal.owner.is_none()
-            })
-            .collect();
-        for index in 0..module.nodes.len() {
+        let ports = self.input_ports(part);
+        for index in 0..module.logic.min(module.nodes.len()) {
             let id = self.node(part, index, &ports)?;
             self.parts[part].map.push(id);
         }
@@ -215,6 +217,14 @@ impl<'d> Flattening<'d> {
         self.drive(part)?;
         self.parts[part].state = State::Settled;
         self.properties(part)
+    }
+
+    /// Returns the input ports of a part, by signal index.
+    fn input_ports(&self, part: usize) -> Vec<usize> {
+        let signals = self.parts[part].module.signals.iter().enumerate();
+        let ports =
+            signals.filter(|(_, signal)| signal.role == Role::Input && signal.owner.is_none());
+        ports.map(|(index, _)| index).collect()
     }
 
     /// Settles an inner instance unless it is settled.
@@ -354,72 +364,134 @@ impl<'d> Flattening<'d> {
         Ok(())
     }
 
-    /// Adds the properties of the outermost circuit, in terms of the tick before the edge: a
-    /// register after the edge is the node that it takes.
+    /// Adds the properties of the outermost circuit.
     fn properties(&mut self, part: usize) -> Result<(), EngineError> {
-        let module = self.parts[part].module;
-        if part != 0 || module.assertions.is_empty() {
-            return Ok(());
-        }
-        let mut after: Vec<Option<Id>> = vec![None; module.nodes.len()];
-        for assertion in &module.assertions {
-            let holds = match assertion.step {
-                true => self.after(&mut after, assertion.holds)?,
-                false => self.made(0, assertion.holds)?,
-            };
-            self.flat.properties.push(holds);
+        if part == 0 {
+            self.flat.properties = self.stated(0)?;
         }
         Ok(())
     }
 
-    /// Makes a node of a step property, which reads registers after the edge.
-    fn after(&mut self, after: &mut [Option<Id>], id: netlist::Id) -> Result<Id, EngineError> {
+    /// Makes the properties of a settled part, in terms of the tick before the edge: a register
+    /// after the edge is the node that it takes.
+    fn stated(&mut self, part: usize) -> Result<Vec<Id>, EngineError> {
+        let module = self.parts[part].module;
+        let mut stated = Stated {
+            part,
+            made: [(); 2].map(|()| vec![None; module.nodes.len()]),
+        };
+        let assertions = module.assertions.iter();
+        assertions
+            .map(|assertion| self.state(&mut stated, assertion.step, assertion.holds))
+            .collect()
+    }
+
+    /// Makes a node of a property; where it spans a `step`, of signals after the edge.
+    fn state(
+        &mut self,
+        stated: &mut Stated,
+        step: bool,
+        id: netlist::Id,
+    ) -> Result<Id, EngineError> {
         use netlist::Node;
-        if let Some(made) = after.get(id).copied().flatten() {
+        if let Some(made) = stated.made[usize::from(step)].get(id).copied().flatten() {
             return Ok(made);
         }
-        let module = self.parts[0].module;
+        let part = stated.part;
+        let module = self.parts[part].module;
         let circle = || EngineError::Circle {
             module: module.name.clone(),
             node: id,
         };
         let (node, shape) = *module.nodes.get(id).ok_or_else(circle)?;
         let made = match node {
-            Node::Past(a) => self.made(0, a)?,
-            Node::Signal(signal) => match self.register(0, signal) {
+            _ if !step && id < module.logic => self.made(part, id)?,
+            Node::Past(a) => self.state(stated, false, a)?,
+            Node::Signal(signal) if step => match self.register(part, signal) {
                 Some(register) => self.flat.registers[register as usize].next,
-                None => self.made(0, id)?,
+                None => self.made(part, id)?,
             },
-            Node::Constant(_) | Node::Parameter(_) | Node::Port { .. } => self.made(0, id)?,
+            Node::Constant(bits) => {
+                let width = shape.width as u8;
+                self.add(part, Op::Constant(bits & mask(width)), width)
+            }
+            Node::Signal(_) | Node::Parameter(_) | Node::Port { .. } => {
+                self.node(part, id, &self.input_ports(part))?
+            }
             node => {
                 let mut operands = Vec::new();
                 for operand in node.operands() {
                     if operand >= id {
                         return Err(circle());
                     }
-                    operands.push((operand, self.after(after, operand)?));
+                    operands.push((operand, self.state(stated, step, operand)?));
                 }
                 let of = |id| {
                     let made = operands.iter().find(|(operand, _)| *operand == id);
                     made.map(|(_, made)| *made).ok_or_else(circle)
                 };
                 let width = shape.width as u8;
-                let op = match node {
+                match node {
                     Node::Read(memory, a) => {
-                        let memory = self.parts[0].memories.get(memory).copied().flatten();
-                        Op::Read(memory.ok_or_else(circle)?, of(a)?)
+                        let memory = self.memory(part, memory).ok_or_else(circle)?;
+                        let address = of(a)?;
+                        match step {
+                            true => self.read_after(part, memory, address),
+                            false => self.add(part, Op::Read(memory, address), width),
+                        }
                     }
-                    node => operation(node, shape, |id| module.nodes[id].1, of)?,
-                };
-                match op {
-                    Op::Slice(a, 0) if self.flat.node(a).width == width => a,
-                    Op::Extend(a) | Op::ExtendSigned(a) if self.flat.node(a).width == width => a,
-                    op => self.add(0, op, width),
+                    node => match operation(node, shape, |id| module.nodes[id].1, of)? {
+                        Op::Slice(a, 0) if self.flat.node(a).width == width => a,
+                        Op::Extend(a) | Op::ExtendSigned(a) if self.flat.node(a).width == width => {
+                            a
+                        }
+                        op => self.add(part, op, width),
+                    },
                 }
             }
         };
-        after[id] = Some(made);
+        stated.made[usize::from(step)][id] = Some(made);
         Ok(made)
+    }
+
+    /// Makes the word that a memory has at an address after the edge.
+    fn read_after(&mut self, part: usize, memory: u32, address: Id) -> Id {
+        let of = &self.flat.memories[memory as usize];
+        let (width, port, words) = (of.width, of.port, of.contents.len() as u64);
+        let held = self.add(part, Op::Read(memory, address), width);
+        let wide = self.flat.node(address).width;
+        match port {
+            Port::Rom => held,
+            Port::Ram {
+                enable,
+                address: at,
+                data,
+            } => {
+                let here = self.add(part, Op::Equal(address, at), 1);
+                let mut here = self.add(part, Op::And(enable, here), 1);
+                if words <= mask(wide) {
+                    let end = self.add(part, Op::Constant(words), wide);
+                    let inside = self.add(part, Op::Below(address, end), 1);
+                    here = self.add(part, Op::And(here, inside), 1);
+                }
+                self.add(part, Op::Mux(here, data, held), width)
+            }
+            Port::Shift { enable, data } => {
+                let one = self.add(part, Op::Constant(1), wide);
+                let zero = self.add(part, Op::Constant(0), wide);
+                let before = self.add(part, Op::Subtract(address, one), wide);
+                let moved = self.add(part, Op::Read(memory, before), width);
+                let first = self.add(part, Op::Equal(address, zero), 1);
+                let mut moved = self.add(part, Op::Mux(first, data, moved), width);
+                if words <= mask(wide) {
+                    // Past the last stage stays zero.
+                    let end = self.add(part, Op::Constant(words), wide);
+                    let inside = self.add(part, Op::Below(address, end), 1);
+                    moved = self.add(part, Op::Mux(inside, moved, held), width);
+                }
+                self.add(part, Op::Mux(enable, moved, held), width)
+            }
+        }
     }
 
     /// Sets the places of the leaves of a walk over the outermost circuit.

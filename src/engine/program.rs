@@ -25,6 +25,8 @@ pub struct Program {
 pub enum Watch<'w> {
     /// All leaves.
     All,
+    /// All leaves, and the properties.
+    Stated,
     /// These leaves; others are computed on request.
     Leaves(&'w [usize]),
 }
@@ -32,7 +34,12 @@ pub enum Watch<'w> {
 impl Program {
     /// Plans a netlist; `held` are leaves that do not change in idle ticks.
     pub(crate) fn planned(flat: &Arc<Flat>, watch: Watch<'_>, held: &[usize]) -> Program {
-        let mut wanted = vec![watch == Watch::All; flat.leaves.len() + flat.properties.len()];
+        let all = matches!(watch, Watch::All | Watch::Stated);
+        let mut wanted = vec![all; flat.leaves.len()];
+        wanted.resize(
+            flat.leaves.len() + flat.properties.len(),
+            watch == Watch::Stated,
+        );
         if let Watch::Leaves(leaves) = watch {
             for &leaf in leaves {
                 if let Some(wanted) = wanted.get_mut(leaf) {
@@ -57,7 +64,7 @@ impl Program {
             plan,
             flat: flat.clone(),
             held: slots,
-            all: watch == Watch::All,
+            all,
         }
     }
 

@@ -60,6 +60,8 @@ pub(super) struct Builder {
     pub parts: Vec<Declared>,
     pub instances: Vec<Instance>,
     pub assertions: Vec<Assertion>,
+    /// Number of nodes before those that only properties read.
+    pub logic: usize,
     /// Indices of the ROMs among the memories.
     pub roms: Vec<usize>,
     /// Parts that mistakes name, by index.

@@ -322,6 +322,7 @@ impl Builder {
         let module = Module {
             name: name.to_owned(),
             about,
+            logic: self.logic,
             nodes: self.nodes,
             signals: self.signals,
             parameters: self

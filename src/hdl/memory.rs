@@ -1,6 +1,7 @@
 //! Memories: handles to them, and their power-on contents.
 
 use super::build::{self, Id};
+use super::property;
 use super::record::{Cells, MemoryShape, Source};
 use super::words::{Bit, U};
 use crate::netlist::{Field, Node, Site, unsigned};
@@ -154,6 +155,71 @@ impl Shift {
     /// Leaves the register unchanged.
     pub fn keep(self) -> Written {
         Written(Some((self.memory, State::Kept)))
+    }
+}
+
+/// Words of a memory or stages of a shift register, in [properties](super::Moment).
+#[derive(Debug, Clone, Copy)]
+pub struct Words {
+    memory: usize,
+    words: usize,
+    /// True for the words before the edge, in a property over one.
+    past: bool,
+}
+
+impl Words {
+    pub(super) fn of(cells: &Cells) -> Self {
+        Words {
+            memory: cells.first,
+            words: cells.words,
+            past: cells.past,
+        }
+    }
+
+    /// Number of words.
+    #[expect(clippy::len_without_is_empty, reason = "a memory has a word at least")]
+    pub fn len(&self) -> usize {
+        self.words
+    }
+
+    /// Returns the word at `address`; zero past the last one.
+    ///
+    /// In a property over an edge, the address of a word before the edge is computed from signals
+    /// before it.
+    #[track_caller]
+    pub fn read(&self, address: U) -> U {
+        let shape = build::memory_shape(self.memory);
+        let address = match shape.address {
+            Some(wanted) => build::fit(address.0, unsigned(wanted), "the address"),
+            None => address.0,
+        };
+        let word = unsigned(shape.width);
+        if !self.past {
+            return U(build::node(Node::Read(self.memory, address), word));
+        }
+        match property::before(address) {
+            Some(address) => {
+                let read = build::node(Node::Read(self.memory, address), word);
+                U(build::node(Node::Past(read), word))
+            }
+            None => {
+                let what = "a word before the edge is read at an address of after it";
+                build::mistake(build::here(), what.to_owned());
+                U(build::constant(0, word))
+            }
+        }
+    }
+
+    /// Returns the word with this index.
+    #[track_caller]
+    pub fn word(&self, index: usize) -> U {
+        let address = build::memory_shape(self.memory).address.unwrap_or(64);
+        self.read(U(build::constant(index as u64, unsigned(address))))
+    }
+
+    /// Returns all words in order.
+    pub fn iter(&self) -> impl Iterator<Item = U> + '_ {
+        (0..self.words).map(|index| self.word(index))
     }
 }
 

@@ -5,7 +5,7 @@ use super::build::{self, Declared, Instance, builder, elaboration, here, node};
 use super::describe::describe;
 use super::leaves::Nodes;
 use super::record::{Pass, Record, Sink, Source, Walk};
-use super::view::{self, Seen, Shapes, Wire};
+use super::view::{self, Open, Seen, Shapes, Wire};
 use super::{Circuit, Written};
 use crate::netlist::{Child, Field, Node, Register, Role, Setting, Shape};
 use std::fmt;
@@ -27,6 +27,18 @@ pub struct Settled<C: Circuit> {
     pub q: C::Reg<Seen>,
     /// Nets.
     pub w: C::Net<Wire>,
+}
+
+/// Circuit inside another, in [properties](super::Moment).
+pub struct Opened<C: Circuit> {
+    /// Drivers of its input ports.
+    pub i: C::In<Wire>,
+    /// Registers.
+    pub q: C::Reg<Open>,
+    /// Nets.
+    pub w: C::Net<Wire>,
+    /// Circuits inside.
+    pub p: C::Parts<Open>,
 }
 
 impl<C: Circuit> Part<C> {
@@ -332,6 +344,12 @@ impl<C: Circuit> fmt::Debug for Part<C> {
         f.debug_struct(self.circuit.name())
             .field("circuit", &self.circuit)
             .finish_non_exhaustive()
+    }
+}
+
+impl<C: Circuit> fmt::Debug for Opened<C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct(C::NAME).finish_non_exhaustive()
     }
 }
 

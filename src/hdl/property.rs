@@ -1,13 +1,14 @@
 //! Properties of a circuit, written in words.
 
 use super::Circuit;
-use super::build::{builder, node};
+use super::build::{self, builder, elaboration, node};
 use super::elaborate::Nets;
 use super::leaves::Nodes;
-use super::record::{Pass, Record, Source};
-use super::view::{self, Seen, Wire};
+use super::memory::Contents;
+use super::record::{Cells, MemoryShape, Pass, Record, Source};
+use super::view::{self, Open, Wire};
 use super::words::Bit;
-use crate::netlist::{Assertion, Field, Id, Node, Register, Role, Shape};
+use crate::netlist::{Assertion, Claim, Field, Id, Node, Register, Role, Shape};
 use std::fmt;
 
 /// Signals of a settled tick, and the registers after its edge.
@@ -15,11 +16,11 @@ pub struct Moment<C: Circuit> {
     /// Input ports.
     pub i: C::In<Wire>,
     /// Registers.
-    pub q: C::Reg<Seen>,
+    pub q: C::Reg<Open>,
     /// Nets.
     pub w: C::Net<Wire>,
     /// Circuits inside.
-    pub p: C::Parts<Seen>,
+    pub p: C::Parts<Open>,
     /// Registers after the edge.
     pub next: After<C>,
 }
@@ -27,9 +28,9 @@ pub struct Moment<C: Circuit> {
 /// Registers after an edge.
 pub struct After<C: Circuit> {
     /// Registers of the circuit itself.
-    pub q: C::Reg<Seen>,
+    pub q: C::Reg<Open>,
     /// Registers of the circuits inside.
-    pub p: C::Parts<Seen>,
+    pub p: C::Parts<Open>,
 }
 
 impl<C: Circuit> fmt::Debug for Moment<C> {
@@ -44,12 +45,14 @@ impl<C: Circuit> fmt::Debug for After<C> {
     }
 }
 
-/// Invariant written in words. `check` proves it at small widths. The printed Verilog has it as an
-/// assertion, which other tools can prove at full width.
+/// Statement about a circuit, written in words. `check` proves it at small widths and at full
+/// width. The printed Verilog has it as an assertion for other tools.
 #[derive(Debug, Clone)]
 pub struct Property {
-    /// Statement of the property.
+    /// The statement.
     pub name: &'static str,
+    /// Use of the statement in proofs.
+    pub claim: Claim,
     /// Signals at fault if the property is violated.
     pub signals: &'static [&'static str],
     /// True if the property reads the registers after the edge.
@@ -63,6 +66,7 @@ impl Property {
     pub fn always(name: &'static str, signals: &'static [&'static str], holds: Bit) -> Self {
         Property {
             name,
+            claim: Claim::Property,
             signals,
             step: false,
             holds,
@@ -76,11 +80,44 @@ impl Property {
             ..Property::always(name, signals, holds)
         }
     }
+
+    /// Creates a property of the settled signals of a tick that makes the proofs of others
+    /// possible. It is proved like the others and listed apart.
+    pub fn helper(name: &'static str, signals: &'static [&'static str], holds: Bit) -> Self {
+        Property {
+            claim: Claim::Helper,
+            ..Property::always(name, signals, holds)
+        }
+    }
+
+    /// Creates an assumption about the input ports of a tick, which may depend on the state. The
+    /// circuit is proved for inputs that keep it in every tick; a circuit that contains this one has
+    /// to keep it.
+    pub fn given(name: &'static str, holds: Bit) -> Self {
+        Property {
+            claim: Claim::Given,
+            ..Property::always(name, &[], holds)
+        }
+    }
+
+    /// Creates a condition under which an exhaustive search looks at an input, because other inputs
+    /// have the same effect. Proofs at full width do without it.
+    pub fn narrowing(name: &'static str, holds: Bit) -> Self {
+        Property {
+            claim: Claim::Narrowing,
+            ..Property::always(name, &[], holds)
+        }
+    }
 }
 
 /// Adds the properties of a circuit to the module under construction. A property over an edge is
 /// stated about the tick before and the registers of this one.
 pub(super) fn note<C: Circuit>(circuit: &C, nets: &Nets) {
+    builder(|builder| builder.logic = builder.nodes.len());
+    // The signals of a part with mistakes are unknown.
+    if elaboration(|elaboration| !elaboration.mistakes.is_empty()) {
+        return;
+    }
     let now = There::of(nets);
     let always = circuit.properties(&now.moment(circuit, &now));
     if always.is_empty() {
@@ -98,6 +135,7 @@ fn assert(always: Vec<Property>, steps: Vec<Property>) {
         builder(|builder| {
             builder.assertions.push(Assertion {
                 name: property.name,
+                claim: property.claim,
                 signals: property.signals,
                 step: property.step,
                 holds: property.holds.0,
@@ -110,7 +148,10 @@ fn assert(always: Vec<Property>, steps: Vec<Property>) {
 struct There {
     inputs: Vec<Id>,
     registers: Vec<Id>,
+    memories: Vec<usize>,
     nets: Vec<Id>,
+    /// True for the tick before the edge.
+    past: bool,
 }
 
 impl There {
@@ -134,10 +175,20 @@ impl There {
                 .map(|(signal, shape)| node(Node::Signal(signal), shape))
                 .collect()
         };
+        let memories = builder(|builder| {
+            let registers = builder.registers.iter();
+            let memories = registers.filter_map(|register| match register {
+                Register::Memory(memory) => Some(*memory),
+                Register::Signal(_) => None,
+            });
+            memories.collect()
+        });
         There {
             inputs: read(inputs),
             registers: read(registers),
+            memories,
             nets: nets.nodes.clone(),
+            past: false,
         }
     }
 
@@ -146,13 +197,15 @@ impl There {
         let past = |nodes: &[Id]| {
             let nodes = nodes.iter();
             nodes
-                .map(|id| node(Node::Past(*id), super::build::shape(*id)))
+                .map(|id| node(Node::Past(*id), build::shape(*id)))
                 .collect()
         };
         There {
             inputs: past(&self.inputs),
             registers: past(&self.registers),
+            memories: self.memories.clone(),
             nets: past(&self.nets),
+            past: true,
         }
     }
 
@@ -160,14 +213,12 @@ impl There {
         let mut inputs = Nodes(self.inputs.iter());
         let i = C::In::make(circuit, view::role(Role::Input), &mut inputs);
         let mut again = self.again();
-        let q = C::Reg::make(circuit, view::role(Role::Register), &mut again);
-        let p = C::Parts::make(circuit, view::role(Role::Net), &mut again);
-        again.pass(Pass::Nets);
+        let (q, p) = view::open(circuit, &mut again);
         let w = C::Net::make(circuit, view::role(Role::Net), &mut again);
-        let mut again = next.again();
+        let (after_q, after_p) = view::open(circuit, &mut next.again());
         let next = After {
-            q: C::Reg::make(circuit, view::role(Role::Register), &mut again),
-            p: C::Parts::make(circuit, view::role(Role::Net), &mut again),
+            q: after_q,
+            p: after_p,
         };
         Moment { i, q, w, p, next }
     }
@@ -176,8 +227,10 @@ impl There {
     fn again(&self) -> Again<'_> {
         Again {
             registers: Nodes(self.registers.iter()),
+            memories: self.memories.iter(),
             nets: Nodes(self.nets.iter()),
             pass: Pass::Registers,
+            past: self.past,
         }
     }
 }
@@ -185,8 +238,10 @@ impl There {
 /// Source of existing nodes, in the order of the walks.
 struct Again<'a> {
     registers: Nodes<'a>,
+    memories: std::slice::Iter<'a, usize>,
     nets: Nodes<'a>,
     pass: Pass,
+    past: bool,
 }
 
 impl Source for Again<'_> {
@@ -202,4 +257,34 @@ impl Source for Again<'_> {
             Pass::Nets => self.nets.word(field, shape, power_on),
         }
     }
+    fn memory(
+        &mut self,
+        _: &'static Field,
+        _: &'static Field,
+        shape: MemoryShape,
+        _: &dyn Fn() -> Contents,
+    ) -> Cells {
+        // A walk over the registers has each memory once.
+        let memory = self.memories.next().copied().unwrap_or_default();
+        Cells {
+            past: self.past,
+            ..Cells::at(memory, shape)
+        }
+    }
+}
+
+/// Returns the node of one tick ago whose value a node of a property over an edge has: the same
+/// function of the signals then. Returns `None` if it reads a signal of after the edge.
+pub(super) fn before(id: Id) -> Option<Id> {
+    let (here, shape) = builder(|builder| builder.nodes[id]);
+    let operands: Vec<Id> = match here {
+        Node::Past(then) => return Some(then),
+        Node::Constant(_) | Node::Parameter(_) => return Some(id),
+        Node::Signal(_) | Node::Port { .. } => return None,
+        Node::Read(memory, _) if !builder(|builder| builder.roms.contains(&memory)) => return None,
+        _ => here.operands().map(before).collect::<Option<_>>()?,
+    };
+    let mut operands = operands.into_iter();
+    let then = here.map(|operand| operands.next().unwrap_or(operand));
+    Some(node(then, shape))
 }

@@ -73,6 +73,8 @@ pub struct Cells {
     pub width: usize,
     /// Values of the words.
     pub contents: Arc<[u64]>,
+    /// True in a property over an edge, for the words before it.
+    pub past: bool,
 }
 
 impl Cells {
@@ -83,6 +85,7 @@ impl Cells {
             words: shape.words,
             width: shape.width,
             contents: Arc::new([]),
+            past: false,
         }
     }
 }

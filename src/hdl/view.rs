@@ -2,8 +2,8 @@
 
 use super::Circuit;
 use super::build;
-use super::memory::{Ram, Shift, Written};
-use super::part::{Part, Settled};
+use super::memory::{Ram, Shift, Words, Written};
+use super::part::{Opened, Part};
 use super::place::{At, MemoryAt, Signals};
 use super::record::{Cells, Pass, Record, Source};
 use super::values::{Registers, Values};
@@ -99,10 +99,13 @@ pub struct Wire;
 #[derive(Debug, Clone, Copy)]
 pub struct Edge;
 
-/// View of a part's registers from the surrounding circuit: memories are hidden. In
-/// [properties](super::Moment) parts are settled.
+/// View of a part's registers from the surrounding circuit: memories are hidden.
 #[derive(Debug, Clone, Copy)]
 pub struct Seen;
+
+/// View in [properties](super::Moment): memories are words to read, parts show all their signals.
+#[derive(Debug, Clone, Copy)]
+pub struct Open;
 
 /// View as numbers.
 #[derive(Debug, Clone, Copy)]
@@ -193,24 +196,46 @@ impl View for Seen {
     words!();
     type Ram = ();
     type Shift = ();
-    type Part<C: Circuit> = Settled<C>;
+    type Part<C: Circuit> = ();
 
     fn ram(_: Cells) {}
     fn shift(_: Cells) {}
-    fn part<C: Circuit>(circuit: &C, field: &'static Field, source: &mut dyn Source) -> Settled<C> {
+    fn part<C: Circuit>(_: &C, _: &'static Field, _: &mut dyn Source) {}
+}
+
+impl View for Open {
+    words!();
+    type Ram = Words;
+    type Shift = Words;
+    type Part<C: Circuit> = Opened<C>;
+
+    fn ram(cells: Cells) -> Words {
+        Words::of(&cells)
+    }
+    fn shift(cells: Cells) -> Words {
+        Words::of(&cells)
+    }
+    fn part<C: Circuit>(circuit: &C, field: &'static Field, source: &mut dyn Source) -> Opened<C> {
         source.enter(field);
         source.pass(Pass::Nets);
         let i = C::In::make(circuit, role(Role::Input), source);
-        source.pass(Pass::Registers);
-        let q = C::Reg::make(circuit, role(Role::Register), source);
-        // A part hides its inside; its leaves are passed over.
-        C::Parts::<Shapes>::make(circuit, role(Role::Register), source);
-        source.pass(Pass::Nets);
-        C::Parts::<Shapes>::make(circuit, role(Role::Net), source);
+        let (q, p) = open(circuit, source);
         let w = C::Net::make(circuit, role(Role::Net), source);
         source.leave();
-        Settled { i, q, w }
+        Opened { i, q, w, p }
     }
+}
+
+/// Makes the registers and the parts of a circuit in its properties; the nets come next.
+pub(super) fn open<C: Circuit>(
+    circuit: &C,
+    source: &mut dyn Source,
+) -> (C::Reg<Open>, C::Parts<Open>) {
+    source.pass(Pass::Registers);
+    let q = C::Reg::make(circuit, role(Role::Register), source);
+    let p = C::Parts::make(circuit, role(Role::Net), source);
+    source.pass(Pass::Nets);
+    (q, p)
 }
 
 /// Defines conversions between tokens and numbers.

@@ -11,7 +11,7 @@ pub(crate) use mistake::debug_as_display;
 pub use mistake::{Mistake, Site, Wrong};
 pub(crate) use module::Register;
 pub use module::{
-    Assertion, Child, Design, Memory, Module, Parameter, Port, Setting, Signal, Value,
+    Assertion, Child, Claim, Design, Memory, Module, Parameter, Port, Setting, Signal, Value,
 };
 pub(crate) use modules::{enter, live};
 pub use node::{Id, Node, Operator};

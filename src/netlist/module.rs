@@ -13,6 +13,8 @@ pub struct Module {
     pub about: &'static str,
     /// Nodes; each is computed from nodes before it.
     pub nodes: Vec<(Node, Shape)>,
+    /// Number of nodes before those that only properties read.
+    pub logic: usize,
     /// Inputs, registers and nets in declaration order, with the registers of the circuits inside.
     pub signals: Vec<Signal>,
     /// Parameters, without those of the circuits inside.
@@ -128,11 +130,13 @@ impl Memory {
     }
 }
 
-/// Property of a module.
+/// Statement about a module.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assertion {
-    /// Statement of the property.
+    /// The statement in words.
     pub name: &'static str,
+    /// Use of the statement in proofs.
+    pub claim: Claim,
     /// Signals at fault if the property is violated.
     pub signals: &'static [&'static str],
     /// True if the property spans an edge: it reads the registers after the edge, and through
@@ -140,6 +144,27 @@ pub struct Assertion {
     pub step: bool,
     /// Node that is high if the property holds.
     pub holds: Id,
+}
+
+/// Use of a statement in proofs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Claim {
+    /// Proved.
+    Property,
+    /// Proved too; it is there only to make the proofs of others possible.
+    Helper,
+    /// Assumed of the input ports; a circuit around this one has to keep it.
+    Given,
+    /// True for the cases that an exhaustive search looks at. The others would repeat them, so a
+    /// proof at full width does without it.
+    Narrowing,
+}
+
+impl Claim {
+    /// True if the statement is proved.
+    pub fn is_proved(self) -> bool {
+        matches!(self, Claim::Property | Claim::Helper)
+    }
 }
 
 /// Write port of a memory; `I` identifies a node.

@@ -1,8 +1,11 @@
 //! Queries on modules.
 
-use super::module::{Module, Register};
+use super::module::{Assertion, Claim, Module, Register};
 use super::node::{Id, Node};
 use super::signal::{BIT, Shape};
+
+/// The most nodes of a statement that Verilog has.
+const LONGEST: usize = 1000;
 
 impl Module {
     /// Returns the nodes that drive nets, registers, memories and inputs of instances.
@@ -21,38 +24,49 @@ impl Module {
 
     /// Returns the signals read from instances that are not ports: the instance, and the signal.
     pub(crate) fn hidden(&self, modules: &[Module]) -> Vec<(usize, String)> {
-        let mut hidden = Vec::new();
-        let live = self.live();
-        for (node, _) in self
-            .nodes
-            .iter()
-            .zip(&live)
-            .filter(|(_, live)| **live)
-            .map(|(node, _)| node)
-        {
-            let read = match *node {
-                Node::Signal(signal) => self.signals[signal]
-                    .owner
-                    .map(|(instance, inner)| (instance, Some(inner))),
-                Node::Port { instance, leaf } => {
-                    let inside = &modules[self.instances[instance].module];
-                    Some((instance, inside.nets.get(leaf).copied().flatten()))
-                }
-                Node::Read(memory, _) if self.memories[memory].inner => Some((0, None)),
-                _ => None,
-            };
-            let Some((instance, inner)) = read else {
-                continue;
-            };
-            let child = &self.instances[instance];
-            let signal = inner.map(|inner| &modules[child.module].signals[inner]);
-            match signal {
-                Some(signal) if signal.is_port() => {}
-                Some(signal) => hidden.push((instance, signal.path.clone())),
-                None => hidden.push((instance, "a signal further inside".to_owned())),
+        let nodes = self.nodes.iter().zip(self.live());
+        let live = nodes.filter(|(_, live)| *live);
+        live.filter_map(|((node, _), _)| self.hidden_read(*node, modules))
+            .collect()
+    }
+
+    /// Returns the signal that a node reads from an instance if it is no port: the instance, and
+    /// the signal.
+    fn hidden_read(&self, node: Node, modules: &[Module]) -> Option<(usize, String)> {
+        let (instance, inner) = match node {
+            Node::Signal(signal) => {
+                let (instance, inner) = self.signals[signal].owner?;
+                (instance, Some(inner))
             }
+            Node::Port { instance, leaf } => {
+                let inside = &modules[self.instances[instance].module];
+                (instance, inside.nets.get(leaf).copied().flatten())
+            }
+            Node::Read(memory, _) if self.memories[memory].inner => (0, None),
+            _ => return None,
+        };
+        let child = &self.instances[instance];
+        match inner.map(|inner| &modules[child.module].signals[inner]) {
+            Some(signal) if signal.is_port() => None,
+            Some(signal) => Some((instance, signal.path.clone())),
+            None => Some((instance, "a signal further inside".to_owned())),
         }
-        hidden
+    }
+
+    /// Returns the statements that Verilog has: those that read only the module's own signals and
+    /// the ports of its instances, and that a reader can follow. Those that narrow a search are not
+    /// among them.
+    pub(crate) fn printed(&self, modules: &[Module]) -> Vec<&Assertion> {
+        let assertions = self.assertions.iter();
+        let stated = assertions.filter(|assertion| assertion.claim != Claim::Narrowing);
+        let shown = stated.filter(|assertion| {
+            let live = live(&self.nodes, [assertion.holds].into_iter());
+            let read = self.nodes.iter().zip(live).filter(|(_, live)| *live);
+            let mut read = read.map(|((node, _), _)| *node);
+            let hides = |node| self.hidden_read(node, modules).is_some();
+            read.clone().count() <= LONGEST && !read.any(hides)
+        });
+        shown.collect()
     }
 
     /// Returns kind and width of leaf `leaf` of the walk over the nets.

@@ -4,7 +4,7 @@ use super::design::Modules;
 use super::expression::Expressions;
 use super::names::Names;
 use super::text::{ascii, range};
-use crate::netlist::{Module, Node};
+use crate::netlist::{Claim, Module, Node};
 use std::fmt::Write as _;
 
 /// Low in the first tick, whose past is not known.
@@ -13,15 +13,16 @@ const PAST_VALID: &str = "f_past_valid";
 impl Modules<'_> {
     /// The assertions of a module, for tools that define FORMAL.
     pub(super) fn assertions(&self, module: &Module) -> String {
-        if module.assertions.is_empty() {
+        let printed = module.printed(self.modules);
+        if printed.is_empty() {
             return String::new();
         }
         // Names of its own: what only an assertion reads is read by nothing in the circuit.
         let mut names = Names::new(module, self.modules);
-        names.share_in_assertions(module);
+        names.share_in_assertions(module, &printed);
         let expressions = Expressions::new(module, &names);
         let mut text = String::from("`ifdef FORMAL\n");
-        let steps = module.assertions.iter().any(|assertion| assertion.step);
+        let steps = printed.iter().any(|assertion| assertion.step);
         if steps {
             let _ = writeln!(text, "    reg {PAST_VALID} = 1'b0;");
             let _ = writeln!(text, "    always @(posedge clk)");
@@ -29,20 +30,24 @@ impl Modules<'_> {
         }
         text += &shared(module, &expressions);
         let _ = writeln!(text, "    always @(posedge clk) begin");
-        for assertion in &module.assertions {
+        for assertion in printed {
             let holds = expressions.definition(assertion.holds, 76, "                ");
             let name = ascii(assertion.name);
             let mut name = name.chars();
             let first = name.next().map(|first| first.to_ascii_uppercase());
             let name: String = first.into_iter().chain(name).collect();
             let _ = writeln!(text, "        // {name}.");
+            let says = match assertion.claim {
+                Claim::Property | Claim::Helper => "assert",
+                Claim::Given | Claim::Narrowing => "assume",
+            };
             match assertion.step {
                 true => {
                     let _ = writeln!(text, "        if ({PAST_VALID} && !$past(rst))");
-                    let _ = writeln!(text, "            assert ({holds});");
+                    let _ = writeln!(text, "            {says} ({holds});");
                 }
                 false => {
-                    let _ = writeln!(text, "        assert ({holds});");
+                    let _ = writeln!(text, "        {says} ({holds});");
                 }
             }
         }

@@ -128,13 +128,12 @@ impl Verilog {
     /// Returns the assertions in the circuit's own module for formal tools: the names of its
     /// [properties](crate::hdl::Circuit::properties).
     pub fn assertions(&self) -> Vec<&'static str> {
-        let top = self.design.modules.last();
-        let assertions = top.map(|module| module.assertions.iter());
-        assertions
-            .into_iter()
-            .flatten()
-            .map(|assertion| assertion.name)
-            .collect()
+        let Some(top) = self.design.modules.last() else {
+            return Vec::new();
+        };
+        let printed = top.printed(&self.design.modules).into_iter();
+        let asserted = printed.filter(|printed| printed.claim.is_proved());
+        asserted.map(|printed| printed.name).collect()
     }
 
     /// A testbench with the time scale of waves with this clock. Applies the

@@ -1,4 +1,4 @@
-use crate::netlist::{Id, Kind, Module, Node, Operator, Port, Role};
+use crate::netlist::{Assertion, Id, Kind, Module, Node, Operator, Port, Role};
 use std::collections::{HashMap, HashSet};
 
 /// Names longer than this say less than a number.
@@ -109,10 +109,10 @@ impl Names {
 
     /// Names what Verilog takes no part of without a name in what assertions compute, and, where
     /// there is any, all values of before: wires cannot ask for them.
-    pub(super) fn share_in_assertions(&mut self, module: &Module) {
+    pub(super) fn share_in_assertions(&mut self, module: &Module, printed: &[&Assertion]) {
         self.shared.clear();
         let mut read = vec![false; module.nodes.len()];
-        for assertion in &module.assertions {
+        for assertion in printed {
             read[assertion.holds] = true;
         }
         for id in (0..read.len()).rev() {

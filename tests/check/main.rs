@@ -14,6 +14,7 @@ mod prove;
 mod reach;
 mod report;
 mod search;
+mod statements;
 mod sweep;
 mod widths;
 mod words;

@@ -147,7 +147,7 @@ impl Circuit for CommandPort {
 }
 
 /// High if the waiting command has these words and bits.
-fn waits(q: &Reg<Seen>, words: [U; 3], bits: [Bit; 3]) -> Bit {
+fn waits(q: &Reg<Open>, words: [U; 3], bits: [Bit; 3]) -> Bit {
     let [base, last, period] = words;
     let [cyclic, run, now] = bits;
     let pattern = q.pending_base.equals(base) & q.pending_last.equals(last);

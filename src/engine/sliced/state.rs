@@ -64,13 +64,17 @@ fn held(flat: &Flat) -> impl Iterator<Item = Place> + '_ {
     leaves.iter().copied().filter(move |place| !rom(place))
 }
 
-/// Returns the gates of a tick, the bits of the state after it, and a wire that is high if all
-/// these properties hold. Input ports are the bits of a case from `inputs` on.
-pub fn tick(
-    flat: &Flat,
-    properties: &[usize],
-    inputs: u32,
-) -> Result<(Gates, Vec<Wire>, Wire), NotSliced> {
+/// Tick as gates.
+pub struct Edge {
+    pub gates: Gates,
+    /// Bits of the state after the tick.
+    pub after: Vec<Wire>,
+    /// For each set of properties a wire that is high if all of them hold.
+    pub all: [Wire; 2],
+}
+
+/// Returns the gates of a tick. Input ports are the bits of a case from `inputs` on.
+pub fn tick(flat: &Flat, properties: [&[usize]; 2], inputs: u32) -> Result<Edge, NotSliced> {
     let mut gates = Gates::new();
     let before = State::of(flat, &mut gates);
     let mut lowering = Lowering::of(flat, Some(before.clone()), inputs, gates)?;
@@ -114,11 +118,17 @@ pub fn tick(
             Place::Node(_) | Place::Input(_) => {}
         }
     }
-    let mut all = HIGH;
-    for &property in properties {
-        let id = *flat.properties.get(property).ok_or(NotSliced)?;
-        let holds = lowering.word(id)[0];
-        all = lowering.gates.and(all, holds);
+    let mut all = [HIGH; 2];
+    for (all, properties) in all.iter_mut().zip(properties) {
+        for &property in properties {
+            let id = *flat.properties.get(property).ok_or(NotSliced)?;
+            let holds = lowering.word(id)[0];
+            *all = lowering.gates.and(*all, holds);
+        }
     }
-    Ok((lowering.gates, out, all))
+    Ok(Edge {
+        gates: lowering.gates,
+        after: out,
+        all,
+    })
 }

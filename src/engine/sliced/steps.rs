@@ -149,23 +149,23 @@ pub struct Tick {
 }
 
 impl Tick {
-    /// Converts a tick of a netlist, with the given properties.
+    /// Converts a tick of a netlist with these properties; those in `given` exclude cases.
     ///
     /// # Errors
     /// Returns an error if the state or the input ports have more bits, there are too many gates,
     /// or there is no such property.
-    pub fn of(flat: &Flat, properties: &[usize]) -> Result<Tick, NotSliced> {
+    pub fn of(flat: &Flat, properties: &[usize], given: &[usize]) -> Result<Tick, NotSliced> {
         let ports = flat.inputs.iter().map(|&width| u32::from(width));
         if ports.sum::<u32>() > 64 {
             return Err(NotSliced);
         }
-        let (gates, mut out, holds) = state::tick(flat, properties, 64)?;
-        let bits = out.len();
+        let mut edge = state::tick(flat, [properties, given], 64)?;
+        let bits = edge.after.len();
         if bits > 64 {
             return Err(NotSliced);
         }
-        out.push(holds);
-        let sliced = ordered(&gates, &out);
+        edge.after.extend(edge.all);
+        let sliced = ordered(&edge.gates, &edge.after);
         Ok(Tick { sliced, bits })
     }
 }
@@ -188,8 +188,14 @@ impl<'t> Ticks<'t> {
 
     /// Runs one tick from each state with each input, at most [`LANES`], both packed in the order
     /// of their leaves. Replaces each state by the next one, and calls `broken` with each case
-    /// that violates a property.
-    pub fn run(&mut self, states: &mut [u64], inputs: &[u64], mut broken: impl FnMut(usize)) {
+    /// that violates a property, `excluded` with each that is not to be looked at.
+    pub fn run(
+        &mut self,
+        states: &mut [u64],
+        inputs: &[u64],
+        mut broken: impl FnMut(usize),
+        mut excluded: impl FnMut(usize),
+    ) {
         let words = states.len().min(LANES).div_ceil(64);
         for word in 0..words {
             let turned = [&*states, inputs].map(|cases| {
@@ -214,15 +220,19 @@ impl<'t> Ticks<'t> {
             }
             transpose(&mut after);
             states.copy_from_slice(&after[..states.len()]);
-            let mut wrong = !self.run.slice(out[self.tick.bits], word);
-            while wrong != 0 {
-                let lane = wrong.trailing_zeros() as usize;
-                if lane < states.len() {
-                    broken(word * 64 + lane);
-                }
-                wrong &= wrong - 1;
-            }
+            let there = u64::MAX >> (64 - states.len());
+            let [holds, given] = [0, 1].map(|at| self.run.slice(out[self.tick.bits + at], word));
+            each_bit(given & !holds & there, |lane| broken(word * 64 + lane));
+            each_bit(!given & there, |lane| excluded(word * 64 + lane));
         }
+    }
+}
+
+/// Calls `each` with the number of each bit that is high.
+fn each_bit(mut bits: u64, mut each: impl FnMut(usize)) {
+    while bits != 0 {
+        each(bits.trailing_zeros() as usize);
+        bits &= bits - 1;
     }
 }
 

@@ -200,12 +200,12 @@ proptest! {
             }
         }
         let properties: Vec<usize> = (0..flat.properties.len()).collect();
-        let tick = Tick::of(&flat, &properties).expect("narrow enough");
+        let tick = Tick::of(&flat, &properties, &[]).expect("narrow enough");
         let mut ticks = Ticks::new(&tick);
         for _ in 0..2 {
             let mut after = before.clone();
             let mut held = vec![true; before.len()];
-            ticks.run(&mut after, &inputs, |lane| held[lane] = false);
+            ticks.run(&mut after, &inputs, |lane| held[lane] = false, |_| ());
             prop_assert_eq!(&after, &expected);
             prop_assert_eq!(&held, &holds);
             // Another order, and fewer cases: results of an earlier run must not matter.
