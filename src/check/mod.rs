@@ -56,6 +56,7 @@
 //! # Ok::<(), motion_rtl::check::CheckError>(())
 //! ```
 
+mod batches;
 mod blamed;
 mod counterexample;
 mod coverage;
@@ -71,6 +72,7 @@ mod records;
 mod search;
 mod searching;
 mod specified;
+mod states;
 mod stimulus;
 mod sweep;
 mod visited;

@@ -202,7 +202,8 @@ impl<'a, C: Circuit> Reach<'a, C> {
     }
 
     /// Ends the search undecided if there are more states than this; 2^26 by default. A state
-    /// takes 16 bytes, and another 16 if the visited set is not a bitmap.
+    /// takes as many bytes as its bits fill, 1 to 8, and another 16 if the visited set is not a
+    /// bitmap.
     pub fn limit(mut self, states: u32) -> Self {
         self.limit = states;
         self

@@ -1,114 +1,142 @@
 //! State of a search that does not depend on the circuit's type.
 
+use super::states::States;
 use super::visited::Visited;
 use super::{Progress, Proof};
+use std::ops::Range;
 
 /// Number of states between reports of progress; each depth is reported too.
 const REPORT_EVERY: usize = 1 << 16;
 
 pub(crate) type Report<'a> = dyn FnMut(&Progress) + 'a;
 
-/// States found, ordered by distance from power-on, with the way each was reached.
+/// States found, ordered by distance from power-on.
 pub(crate) struct Search<'a> {
     visited: Visited,
-    states: Vec<u64>,
-    /// For every state its predecessor on a shortest path, and the input that leads to it. Both
-    /// fit: the limit of states is a `u32`, and inputs have at most 20 bits.
-    links: Vec<(u32, u32)>,
+    states: States,
+    /// Greatest number of states.
     limit: usize,
     /// Greatest number of transitions.
     most: u64,
     report: Option<Box<Report<'a>>>,
     /// Index of the current state.
     at: usize,
-    /// Distance of the current state from power-on in edges, and index of the first state farther
-    /// away.
-    pub(crate) depth: u64,
-    deeper_from: usize,
+    /// Index of the first state of each distance from power-on in edges, up to that of the current
+    /// state, and of the first state farther away.
+    depths: Vec<usize>,
     pub(crate) transitions: u64,
+    /// Transitions before the current state.
+    before: u64,
     dead_ends: u64,
 }
 
 impl<'a> Search<'a> {
     pub(crate) fn new(
-        power_on: u64,
+        (bits, power_on): (usize, u64),
         mut visited: Visited,
         (limit, most): (u32, u64),
         report: Option<Box<Report<'a>>>,
     ) -> Self {
         visited.insert(power_on);
-        Search {
+        let mut states = States::new(bits);
+        states.push(power_on);
+        let mut search = Search {
             visited,
-            states: vec![power_on],
-            links: vec![(0, 0)],
+            states,
             limit: limit as usize,
             most,
             report,
             at: 0,
-            depth: 0,
-            deeper_from: 1,
+            depths: vec![0, 1],
             transitions: 0,
+            before: 0,
             dead_ends: 0,
-        }
+        };
+        search.tell(true);
+        search
     }
 
     /// Returns the state with index `at`.
+    #[inline]
     pub(crate) fn nth(&self, at: usize) -> Option<u64> {
-        self.states.get(at).copied()
+        self.states.get(at)
     }
 
-    /// Returns the index of the current state.
-    pub(crate) fn at(&self) -> usize {
-        self.at
+    /// Returns the number of states found.
+    pub(crate) fn len(&self) -> usize {
+        self.states.len()
     }
 
-    /// Returns the current state, which is to be tried with every input.
-    pub(crate) fn state(&mut self) -> Option<u64> {
-        let state = *self.states.get(self.at)?;
-        let deeper = self.at == self.deeper_from;
-        if deeper {
-            self.depth += 1;
-            self.deeper_from = self.states.len();
+    /// Returns the distance of the current state from power-on in edges.
+    pub(crate) fn depth(&self) -> u64 {
+        self.depths.len() as u64 - 2
+    }
+
+    /// Finishes the current state and those before `at`, which becomes the current one.
+    pub(crate) fn proceed(&mut self, at: usize) {
+        while self.at < at {
+            self.dead_ends += u64::from(self.transitions == self.before);
+            self.before = self.transitions;
+            self.at += 1;
+            if self.at < self.len() {
+                let deeper = self.depths.last() == Some(&self.at);
+                if deeper {
+                    self.depths.push(self.len());
+                }
+                self.tell(deeper);
+            }
         }
+    }
+
+    fn tell(&mut self, deeper: bool) {
         let progress = self.progress();
         if (deeper || self.at.is_multiple_of(REPORT_EVERY))
             && let Some(report) = &mut self.report
         {
             report(&progress);
         }
-        Some(state)
     }
 
-    /// Finishes the current state; `before` is the number of transitions before it.
-    pub(crate) fn tried(&mut self, before: u64) {
-        self.dead_ends += u64::from(self.transitions == before);
-        self.at += 1;
+    /// True if so many more transitions and states are within the limits.
+    pub(crate) fn has_room(&self, more: u32) -> bool {
+        self.transitions + u64::from(more) <= self.most && self.len() + more as usize <= self.limit
     }
 
     /// Adds a successor of the current state; returns false if there is no room for it.
     #[inline]
-    pub(crate) fn found(&mut self, state: u64, input: usize) -> bool {
+    pub(crate) fn found(&mut self, state: u64) -> bool {
         if self.transitions > self.most {
             return false;
         }
         if self.visited.insert(state) {
-            if self.states.len() >= self.limit {
+            if self.len() >= self.limit {
                 return false;
             }
             self.states.push(state);
-            self.links.push((self.at as u32, input as u32));
         }
         true
     }
 
-    /// Returns the inputs from power-on to the current state, followed by `last`.
-    pub(crate) fn way(&self, last: usize) -> Vec<usize> {
+    /// Returns the inputs from power-on to the current state, followed by `last`. `leading` returns
+    /// the first of some states, and its first input, that lead to a state; states are given by
+    /// index. They are found again, since a place for each would take more memory than the states.
+    pub(crate) fn way(
+        &self,
+        last: usize,
+        mut leading: impl FnMut(Range<usize>, u64) -> Option<(usize, usize)>,
+    ) -> Vec<usize> {
         let mut way = vec![last];
         let mut at = self.at;
-        while at != 0 {
-            let (from, input) = self.links[at];
-            way.push(input as usize);
-            at = from as usize;
+        let depths = self.depths[..self.depths.len() - 1].windows(2).rev();
+        for level in depths {
+            let Some((from, input)) = self
+                .nth(at)
+                .and_then(|state| leading(level[0]..level[1], state))
+            else {
+                break;
+            };
+            way.push(input);
+            at = from;
         }
         way.reverse();
         way
@@ -116,18 +144,18 @@ impl<'a> Search<'a> {
 
     pub(crate) fn progress(&self) -> Progress {
         Progress {
-            states: self.states.len() as u64,
-            frontier: (self.states.len() - self.at) as u64,
+            states: self.len() as u64,
+            frontier: (self.len() - self.at) as u64,
             transitions: self.transitions,
-            depth: self.depth,
+            depth: self.depth(),
         }
     }
 
     pub(crate) fn proof(&self) -> Proof {
         Proof {
-            states: self.states.len() as u64,
+            states: self.len() as u64,
             transitions: self.transitions,
-            depth: self.depth,
+            depth: self.depth(),
             dead_ends: self.dead_ends,
         }
     }

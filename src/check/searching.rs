@@ -1,14 +1,16 @@
 //! Search through the states of a circuit, independent of its type.
 
 use super::Fault;
+use super::batches::Batches;
 use super::blamed::{self, UnknownSignal};
 use super::reach::{Progress, Proof};
 use super::search::{Report, Search};
 use super::visited::Visited;
-use crate::engine::sliced::{LANES, Tick, Ticks};
+use crate::engine::sliced::Tick;
 use crate::engine::{Engine, Watch};
 use crate::netlist::Role;
 use crate::sim::Elaborated;
+use std::ops::Range;
 
 /// Questions of a search that depend on the circuit's type.
 pub(super) trait Judge {
@@ -61,8 +63,8 @@ impl Searching<'_> {
         simulated: bool,
     ) -> Ended {
         let states = Packing::of(model);
-        let power_on = states.pack(&model.engine(Watch::Stated));
-        let search = Search::new(power_on, visited, limits, progress);
+        let power_on = states.pack(&model.engine(Watch::All));
+        let search = Search::new((states.bits(model), power_on), visited, limits, progress);
         let tick = match simulated {
             true => None,
             false => Tick::of(model.flat(), &self.own, &self.given).ok(),
@@ -79,7 +81,7 @@ impl Searching<'_> {
             return Ended::Unknown(unknown);
         }
         match &tick {
-            Some(tick) => self.side_by_side(search, tick, &mut one),
+            Some(tick) => Batches::new(self, tick).search(search, &mut one),
             None => self.one_by_one(search, &mut one),
         }
     }
@@ -88,8 +90,7 @@ impl Searching<'_> {
     fn blamed(&self, one: &mut One<'_>) -> Vec<(String, String)> {
         let state = one.states.pack(&one.engine);
         let mut inputs = 0..self.ports.len();
-        let possible = |index: &usize| !self.assumes || self.judge.possible(state, *index);
-        let Some(index) = inputs.find(possible) else {
+        let Some(index) = inputs.find(|&index| self.is_possible(state, index)) else {
             return Vec::new();
         };
         one.engine.drive_all(&self.ports[index]);
@@ -99,121 +100,81 @@ impl Searching<'_> {
         self.judge.blamed(&one.engine, (state, index), &after)
     }
 
+    /// True if the assumptions that are no statements of the circuit allow an input in a state.
+    #[inline]
+    pub(super) fn is_possible(&self, state: u64, input: usize) -> bool {
+        !self.assumes || self.judge.possible(state, input)
+    }
+
     /// Searches transition by transition.
     fn one_by_one(&self, mut search: Search<'_>, one: &mut One<'_>) -> Ended {
         let mut after = one.engine.clone();
-        while let Some(state) = search.state() {
+        let mut at = 0;
+        while let Some(state) = search.nth(at) {
+            search.proceed(at);
             one.states.unpack(state, &mut one.engine);
-            let before = search.transitions;
-            for (index, words) in self.ports.iter().enumerate() {
-                if self.assumes && !self.judge.possible(state, index) {
-                    continue;
-                }
-                one.engine.drive_all(words);
-                one.engine.settle();
-                if self.given.iter().any(|&given| !one.engine.property(given)) {
+            for index in 0..self.ports.len() {
+                if !self.tick(state, index, one, &mut after) {
                     continue;
                 }
                 search.transitions += 1;
-                // Another engine makes the edge, so that the registers stay for the next inputs.
-                after.restore(one.engine.slab());
-                after.edge();
                 let next = match self.looks_ahead {
                     true => Next::Engine(&after),
                     false => Next::Nobody,
                 };
-                let of = (state, index);
-                if let Err((name, fault)) = self.judge.check(search.depth, &one.engine, of, next) {
-                    return Ended::Fault(search.way(index), name, fault);
+                let checked = self
+                    .judge
+                    .check(search.depth(), &one.engine, (state, index), next);
+                if let Err((name, fault)) = checked {
+                    let way = search.way(index, |states, to| {
+                        self.leading(&search, states, to, one, &mut after)
+                    });
+                    return Ended::Fault(way, name, fault);
                 }
-                if !search.found(one.states.pack(&after), index) {
+                if !search.found(one.states.pack(&after)) {
                     return Ended::Limit(search.progress());
                 }
             }
-            search.tried(before);
+            at += 1;
         }
+        search.proceed(at);
         Ended::Proof(search.proof())
     }
 
-    /// Evaluates many transitions at once as gates, in the same order and with the same outcome.
-    fn side_by_side(&self, mut search: Search<'_>, tick: &Tick, one: &mut One<'_>) -> Ended {
-        let mut ticks = Ticks::new(tick);
-        // Next case: index of a state, and of an input.
-        let (mut at, mut index) = (0, 0);
-        let mut cases: Vec<(usize, usize)> = Vec::with_capacity(LANES);
-        let (mut before, mut given) = (Vec::with_capacity(LANES), Vec::with_capacity(LANES));
-        let mut after = Vec::with_capacity(LANES);
-        let mut excluded = Vec::with_capacity(LANES);
-        let mut transitions = 0;
-        let mut state = search.state();
-        loop {
-            cases.clear();
-            before.clear();
-            given.clear();
-            while let Some(from) = search.nth(at)
-                && cases.len() < LANES
-            {
-                while index < self.words.len() && cases.len() < LANES {
-                    if !self.assumes || self.judge.possible(from, index) {
-                        cases.push((at, index));
-                        before.push(from);
-                        given.push(self.words[index]);
-                    }
-                    index += 1;
-                }
-                if index == self.words.len() {
-                    (at, index) = (at + 1, 0);
-                }
-            }
-            after.clone_from(&before);
-            let mut broken = None;
-            excluded.clear();
-            ticks.run(
-                &mut after,
-                &given,
-                |lane| broken = broken.or(Some(lane)),
-                |lane| excluded.push(lane),
-            );
-            let mut excluded = excluded.iter().copied().peekable();
-            for (lane, &(from, index)) in cases.iter().enumerate() {
-                while search.at() < from {
-                    search.tried(transitions);
-                    transitions = search.transitions;
-                    state = search.state();
-                }
-                if excluded.next_if_eq(&lane).is_some() {
-                    continue;
-                }
-                search.transitions += 1;
-                let ports = &self.ports[index];
-                if self.others {
-                    let next = match self.looks_ahead {
-                        true => Next::State(after[lane]),
-                        false => Next::Nobody,
-                    };
-                    let checked = one.at(search.depth, (before[lane], index), ports, next);
-                    if let Err((name, fault)) = checked {
-                        return Ended::Fault(search.way(index), name, fault);
-                    }
-                }
-                if broken == Some(lane) {
-                    let (name, fault) = one.fault(search.depth, (before[lane], index), ports);
-                    return Ended::Fault(search.way(index), name, fault);
-                }
-                if !search.found(after[lane], index) {
-                    return Ended::Limit(search.progress());
-                }
-            }
-            if cases.is_empty() {
-                break;
-            }
+    /// Settles a tick of the engine's state with an input, and makes its edge `after`. Returns false
+    /// if the input is not allowed.
+    fn tick(&self, state: u64, index: usize, one: &mut One<'_>, after: &mut Engine) -> bool {
+        if !self.is_possible(state, index) {
+            return false;
         }
-        while state.is_some() {
-            search.tried(transitions);
-            transitions = search.transitions;
-            state = search.state();
+        one.engine.drive_all(&self.ports[index]);
+        one.engine.settle();
+        if self.given.iter().any(|&given| !one.engine.property(given)) {
+            return false;
         }
-        Ended::Proof(search.proof())
+        // Another engine makes the edge, so that the registers stay for the next inputs.
+        after.restore(one.engine.slab());
+        after.edge();
+        true
+    }
+
+    /// Returns the first of these states, and its first input, that lead to a state.
+    fn leading(
+        &self,
+        search: &Search<'_>,
+        mut states: Range<usize>,
+        to: u64,
+        one: &mut One<'_>,
+        after: &mut Engine,
+    ) -> Option<(usize, usize)> {
+        states.find_map(|at| {
+            let state = search.nth(at)?;
+            one.states.unpack(state, &mut one.engine);
+            let mut inputs = 0..self.ports.len();
+            let found = inputs
+                .find(|&index| self.tick(state, index, one, after) && one.states.pack(after) == to);
+            found.map(|index| (at, index))
+        })
     }
 }
 
@@ -226,7 +187,7 @@ pub(super) enum Ended {
 }
 
 /// Evaluation of single transitions.
-struct One<'j> {
+pub(super) struct One<'j> {
     name: &'static str,
     judge: &'j dyn Judge,
     engine: Engine,
@@ -237,7 +198,7 @@ struct One<'j> {
 
 impl One<'_> {
     /// Settles a tick and checks it.
-    fn at(
+    pub(super) fn at(
         &mut self,
         depth: u64,
         (state, input): (u64, usize),
@@ -254,7 +215,7 @@ impl One<'_> {
     }
 
     /// Returns the fault of a transition that violates one of the circuit's own properties.
-    fn fault(&mut self, depth: u64, of: (u64, usize), ports: &[u64]) -> (String, Fault) {
+    pub(super) fn fault(&mut self, depth: u64, of: (u64, usize), ports: &[u64]) -> (String, Fault) {
         // The engine disagrees with the gates: a fault of the gates, which must not be hidden.
         let disagreed = |name: &str| {
             let message = "the gates of a tick say so, the engine does not".to_owned();
@@ -277,6 +238,14 @@ impl Packing {
             (leaf, bit - usize::from(model.flat().width(leaf)))
         });
         Packing(leaves.collect())
+    }
+
+    /// Returns the number of bits of a state.
+    fn bits(&self, model: &Elaborated) -> usize {
+        let last = self.0.last();
+        last.map_or(0, |&(leaf, bit)| {
+            bit + usize::from(model.flat().width(leaf))
+        })
     }
 
     fn pack(&self, engine: &Engine) -> u64 {

@@ -1,5 +1,4 @@
 use super::enumerate::scramble;
-use bitvec::prelude::*;
 use std::collections::HashSet;
 use std::hash::{BuildHasherDefault, Hasher};
 
@@ -9,7 +8,7 @@ const WIDEST_BITMAP: usize = 36;
 /// Packed states that were visited.
 pub(crate) enum Visited {
     /// One bit for every possible state.
-    Bitmap(BitVec<usize, Lsb0>),
+    Bitmap(Vec<u64>),
     /// Set of visited states.
     Set(HashSet<u64, BuildHasherDefault<WordHasher>>),
 }
@@ -19,13 +18,8 @@ impl Visited {
     /// `bitmap_bits`.
     pub(crate) fn new(bits: usize, bitmap_bits: usize) -> Self {
         if bits <= bitmap_bits.min(WIDEST_BITMAP) {
-            // Made from zeroed words and not by `repeat`: pages without a visited state then never
-            // become resident.
-            Visited::Bitmap(BitVec::from_vec(vec![
-                0;
-                (1usize << bits)
-                    .div_ceil(usize::BITS as usize)
-            ]))
+            // Pages without a visited state never become resident.
+            Visited::Bitmap(vec![0; (1usize << bits).div_ceil(64)])
         } else {
             Visited::Set(HashSet::default())
         }
@@ -35,7 +29,12 @@ impl Visited {
     #[inline]
     pub(crate) fn insert(&mut self, state: u64) -> bool {
         match self {
-            Visited::Bitmap(bits) => !bits.replace(state as usize, true),
+            Visited::Bitmap(words) => {
+                let (word, bit) = (&mut words[(state / 64) as usize], 1 << (state % 64));
+                let is_new = *word & bit == 0;
+                *word |= bit;
+                is_new
+            }
             Visited::Set(states) => states.insert(state),
         }
     }

@@ -9,9 +9,11 @@ mod state;
 mod steps;
 #[cfg(test)]
 mod tests;
+mod ticks;
 mod transpose;
 
-pub use steps::{LANES, Run, Sliced, Tick, Ticks};
+pub use steps::{LANES, Run, Sliced, WORDS};
+pub use ticks::{Tick, Ticks, Turned};
 use transpose::transpose;
 
 /// The netlist has state that is not part of a case, or too many gates or bits.

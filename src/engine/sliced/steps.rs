@@ -3,12 +3,11 @@
 use super::NotSliced;
 use super::gates::{Gate, Gates, Wire};
 use super::lower::lowered;
-use super::state;
 use super::transpose;
 use crate::engine::Flat;
 
 /// Number of 64-bit words of a slice.
-const WORDS: usize = 8;
+pub const WORDS: usize = 8;
 /// Number of cases evaluated at once.
 pub const LANES: usize = 64 * WORDS;
 
@@ -44,9 +43,9 @@ struct Step {
 pub struct Sliced {
     steps: Vec<Step>,
     /// Used bits of a case, and their slots.
-    inputs: Vec<(u32, u32)>,
+    pub(super) inputs: Vec<(u32, u32)>,
     /// Slots of the leaves' bits, and their inversion.
-    out: Vec<(u32, bool)>,
+    pub(super) out: Vec<(u32, bool)>,
     slots: usize,
 }
 
@@ -62,7 +61,7 @@ impl Sliced {
 }
 
 /// Assigns a slot to each gate; another gate reuses it after its last use.
-fn ordered(gates: &Gates, out: &[Wire]) -> Sliced {
+pub(super) fn ordered(gates: &Gates, out: &[Wire]) -> Sliced {
     const NEVER: usize = usize::MAX;
     let count = gates.gates.len();
     let mut last: Vec<Option<usize>> = vec![None; count];
@@ -139,108 +138,11 @@ fn step(gate: Gate, to: u32, at: impl Fn(Wire) -> u32) -> Option<Step> {
     Some(Step { code, to, a, b, c })
 }
 
-/// Tick of a circuit with at most 64 bits of state and 64 bits of input ports, which evaluates
-/// many cases at once.
-#[derive(Debug)]
-pub struct Tick {
-    sliced: Sliced,
-    /// Number of bits of state.
-    bits: usize,
-}
-
-impl Tick {
-    /// Converts a tick of a netlist with these properties; those in `given` exclude cases.
-    ///
-    /// # Errors
-    /// Returns an error if the state or the input ports have more bits, there are too many gates,
-    /// or there is no such property.
-    pub fn of(flat: &Flat, properties: &[usize], given: &[usize]) -> Result<Tick, NotSliced> {
-        let ports = flat.inputs.iter().map(|&width| u32::from(width));
-        if ports.sum::<u32>() > 64 {
-            return Err(NotSliced);
-        }
-        let mut edge = state::tick(flat, [properties, given], 64)?;
-        let bits = edge.after.len();
-        if bits > 64 {
-            return Err(NotSliced);
-        }
-        edge.after.extend(edge.all);
-        let sliced = ordered(&edge.gates, &edge.after);
-        Ok(Tick { sliced, bits })
-    }
-}
-
-/// Evaluation of [`LANES`] cases of a tick.
-#[derive(Debug)]
-pub struct Ticks<'t> {
-    tick: &'t Tick,
-    run: Run<'t>,
-}
-
-impl<'t> Ticks<'t> {
-    /// Creates an evaluation without cases.
-    pub fn new(tick: &'t Tick) -> Self {
-        Ticks {
-            run: Run::new(&tick.sliced),
-            tick,
-        }
-    }
-
-    /// Runs one tick from each state with each input, at most [`LANES`], both packed in the order
-    /// of their leaves. Replaces each state by the next one, and calls `broken` with each case
-    /// that violates a property, `excluded` with each that is not to be looked at.
-    pub fn run(
-        &mut self,
-        states: &mut [u64],
-        inputs: &[u64],
-        mut broken: impl FnMut(usize),
-        mut excluded: impl FnMut(usize),
-    ) {
-        let words = states.len().min(LANES).div_ceil(64);
-        for word in 0..words {
-            let turned = [&*states, inputs].map(|cases| {
-                let cases = &cases[word * 64..];
-                let mut turned = [0; 64];
-                let count = cases.len().min(64);
-                turned[..count].copy_from_slice(&cases[..count]);
-                transpose(&mut turned);
-                turned
-            });
-            for &(bit, slot) in &self.tick.sliced.inputs {
-                let bits = turned[bit as usize / 64][bit as usize % 64];
-                self.run.slices[slot as usize][word] = bits;
-            }
-        }
-        self.run.steps();
-        for (word, states) in states.chunks_mut(64).enumerate().take(words) {
-            let mut after = [0; 64];
-            let out = &self.tick.sliced.out;
-            for (after, &wire) in after.iter_mut().zip(&out[..self.tick.bits]) {
-                *after = self.run.slice(wire, word);
-            }
-            transpose(&mut after);
-            states.copy_from_slice(&after[..states.len()]);
-            let there = u64::MAX >> (64 - states.len());
-            let [holds, given] = [0, 1].map(|at| self.run.slice(out[self.tick.bits + at], word));
-            each_bit(given & !holds & there, |lane| broken(word * 64 + lane));
-            each_bit(!given & there, |lane| excluded(word * 64 + lane));
-        }
-    }
-}
-
-/// Calls `each` with the number of each bit that is high.
-fn each_bit(mut bits: u64, mut each: impl FnMut(usize)) {
-    while bits != 0 {
-        each(bits.trailing_zeros() as usize);
-        bits &= bits - 1;
-    }
-}
-
 /// Slices of [`LANES`] cases.
 #[derive(Debug)]
 pub struct Run<'s> {
     sliced: &'s Sliced,
-    slices: Vec<Slice>,
+    pub(super) slices: Vec<Slice>,
 }
 
 /// Bits that number 64 consecutive cases.
@@ -274,7 +176,7 @@ impl<'s> Run<'s> {
         self.steps();
     }
 
-    fn steps(&mut self) {
+    pub(super) fn steps(&mut self) {
         let slices = &mut self.slices[..];
         for step in &self.sliced.steps {
             let a = &slices[step.a as usize];
@@ -307,7 +209,8 @@ impl<'s> Run<'s> {
         seen
     }
 
-    fn slice(&self, (slot, inverse): (u32, bool), word: usize) -> u64 {
+    #[inline]
+    pub(super) fn slice(&self, (slot, inverse): (u32, bool), word: usize) -> u64 {
         let bits = self.slices[slot as usize][word];
         if inverse { !bits } else { bits }
     }

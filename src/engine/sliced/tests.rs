@@ -1,6 +1,6 @@
 //! Bit-sliced cases compared with the evaluation of the nodes, case by case.
 
-use super::{LANES, Run, Sliced, Tick, Ticks, transpose};
+use super::{LANES, Run, Sliced, Tick, Ticks, Turned, transpose};
 use crate::engine::flat::{Flat, Id, Node, Op, Place, Port, mask};
 use crate::engine::random::{Plain, cases};
 use crate::engine::value;
@@ -203,11 +203,33 @@ proptest! {
         let tick = Tick::of(&flat, &properties, &[]).expect("narrow enough");
         let mut ticks = Ticks::new(&tick);
         for _ in 0..2 {
-            let mut after = before.clone();
-            let mut held = vec![true; before.len()];
-            ticks.run(&mut after, &inputs, |lane| held[lane] = false, |_| ());
-            prop_assert_eq!(&after, &expected);
-            prop_assert_eq!(&held, &holds);
+            let words = before.chunks(64).zip(inputs.chunks(64)).enumerate();
+            for (word, (states, inputs)) in words {
+                ticks.states(word, &Turned::of(states.iter().copied()));
+                ticks.inputs(word, &Turned::of(inputs.iter().copied()));
+            }
+            ticks.run();
+            for (word, expected) in expected.chunks(64).enumerate() {
+                prop_assert_eq!(&ticks.after(word)[..expected.len()], expected);
+                let there = u64::MAX >> (64 - expected.len());
+                let mut different: Vec<u64> = Vec::new();
+                ticks.each_after(word, there, |state| {
+                    if !different.contains(&state) {
+                        different.push(state);
+                    }
+                });
+                let mut firsts = Vec::new();
+                for (lane, state) in expected.iter().enumerate() {
+                    if !firsts.contains(state) {
+                        firsts.push(*state);
+                        prop_assert_eq!(ticks.leading(word, there, *state), Some(lane));
+                    }
+                }
+                prop_assert_eq!(different, firsts);
+                for (lane, held) in holds[word * 64..].iter().take(64).enumerate() {
+                    prop_assert_eq!(ticks.holds(word) >> lane & 1 == 1, *held);
+                }
+            }
             // Another order, and fewer cases: results of an earlier run must not matter.
             for list in [&mut before, &mut inputs, &mut expected] {
                 list.reverse();
