@@ -4,7 +4,7 @@ use super::design::Modules;
 use super::expression::Expressions;
 use super::names::Names;
 use super::text::{ascii, range};
-use crate::netlist::{Claim, Module, Node};
+use crate::netlist::{Assertion, Claim, Module, Node};
 use std::fmt::Write as _;
 
 /// Low in the first tick, whose past is not known.
@@ -32,11 +32,7 @@ impl Modules<'_> {
         let _ = writeln!(text, "    always @(posedge clk) begin");
         for assertion in printed {
             let holds = expressions.definition(assertion.holds, 76, "                ");
-            let name = ascii(assertion.name);
-            let mut name = name.chars();
-            let first = name.next().map(|first| first.to_ascii_uppercase());
-            let name: String = first.into_iter().chain(name).collect();
-            let _ = writeln!(text, "        // {name}.");
+            let _ = writeln!(text, "        // {}.", sentence(assertion));
             let says = match assertion.claim {
                 Claim::Property | Claim::Helper => "assert",
                 Claim::Given | Claim::Narrowing => "assume",
@@ -53,6 +49,18 @@ impl Modules<'_> {
         }
         text + "    end\n`endif\n\n"
     }
+}
+
+/// Returns the statement of an assertion, with a capital unless it begins with the name of a signal.
+fn sentence(assertion: &Assertion) -> String {
+    let name = ascii(assertion.name);
+    let first = name.split(' ').next().unwrap_or_default();
+    if assertion.signals.contains(&first) {
+        return name;
+    }
+    let mut letters = name.chars();
+    let first = letters.next().map(|first| first.to_ascii_uppercase());
+    first.into_iter().chain(letters).collect()
 }
 
 /// Returns declarations for the shared values of a module's assertions: past values as registers,

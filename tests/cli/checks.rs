@@ -20,7 +20,7 @@ fn a_proof_names_states_and_invariants() {
         panic!("{text}")
     };
     assert!(seconds.parse::<f64>().is_ok(), "{text}");
-    assert!(text.contains("low in the tick after RST"), "{text}");
+    assert!(text.contains("step is low in the tick after RST"), "{text}");
 }
 
 #[test]

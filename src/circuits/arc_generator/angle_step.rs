@@ -65,19 +65,25 @@ impl Circuit for AngleStep {
 impl Specified for AngleStep {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
-            .step("a step keeps the angle it leaves", |now, next| {
-                let expected = if now.i.step { now.i.angle } else { now.q.last };
-                require(next.q.last == expected, ["last"], || {
-                    format!("not {expected}")
-                })
-            })
-            .step("a turn behind every step that is taken", |now, next| {
-                let expected = now.i.step && !now.i.halt;
-                require(next.q.turn == expected, ["turn"], || {
-                    format!("not {expected}")
-                })
-            })
-            .always("the angle kept and the difference make the angle", |now| {
+            .step(
+                "a step stores its angle in last, and nothing else changes last",
+                |now, next| {
+                    let expected = if now.i.step { now.i.angle } else { now.q.last };
+                    require(next.q.last == expected, ["last"], || {
+                        format!("not {expected}")
+                    })
+                },
+            )
+            .step(
+                "turn is high one tick after a step without halt, and at no other time",
+                |now, next| {
+                    let expected = now.i.step && !now.i.halt;
+                    require(next.q.turn == expected, ["turn"], || {
+                        format!("not {expected}")
+                    })
+                },
+            )
+            .always("last plus difference equals angle", |now| {
                 let sum = now.q.last + now.w.difference as i64;
                 let whole = (sum - now.i.angle) % (1 << self.width) == 0;
                 require(whole, ["difference"], || format!("{sum} instead"))

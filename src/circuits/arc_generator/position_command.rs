@@ -102,7 +102,7 @@ impl Specified for PositionCommand {
         let count = 1i64 << self.widths.guard();
         Invariants::<Self>::new()
             .step(
-                "the command is the point to the nearest count",
+                "present loads the point into the command, rounded to the nearest count",
                 move |now, next| {
                     let from = match now.i.rotating {
                         true => now.i.offset,
@@ -117,25 +117,25 @@ impl Specified for PositionCommand {
                     })
                 },
             )
+            .step("the command changes only with present", |now, next| {
+                let held = next.q.command == now.q.command;
+                require(held || now.i.present, ["command"], || "changes".into())
+            })
             .step(
-                "the command changes with present, at no other time",
+                "origin loads its own word of a record and no others",
                 |now, next| {
-                    let held = next.q.command == now.q.command;
-                    require(held || now.i.present, ["command"], || "changes".into())
+                    let record = &now.i.record;
+                    let own = record.load && record.word == self.origin_word();
+                    let unused = 64 - self.widths.point;
+                    let expected = match own {
+                        true => ((record.data << unused) as i64) >> unused,
+                        false => now.q.origin,
+                    };
+                    require(next.q.origin == expected, ["origin"], || {
+                        format!("not {expected:?}")
+                    })
                 },
             )
-            .step("its word is the origin, others are not", |now, next| {
-                let record = &now.i.record;
-                let own = record.load && record.word == self.origin_word();
-                let unused = 64 - self.widths.point;
-                let expected = match own {
-                    true => ((record.data << unused) as i64) >> unused,
-                    false => now.q.origin,
-                };
-                require(next.q.origin == expected, ["origin"], || {
-                    format!("not {expected:?}")
-                })
-            })
     }
 
     /// A word that is not its own does not differ from another such.

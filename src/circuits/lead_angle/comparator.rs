@@ -145,7 +145,7 @@ impl Specified for Comparator {
         let quarter = 1i64 << self.position >> 2;
         Invariants::<Self>::new()
             .always(
-                "a crossing is an arrival at the target or a step over it",
+                "crossing is high if and only if a sample arrives at the target or steps over it",
                 move |now| {
                     let difference = now.w.difference;
                     let here = (-quarter..quarter).contains(&difference);
@@ -163,12 +163,15 @@ impl Specified for Comparator {
                     })
                 },
             )
-            .always("it fires only without a control signal", |now| {
-                let fires = now.w.crossing && !now.q.control;
-                require(now.w.fire == fires, ["fire"], || "wrong".into())
-            })
+            .always(
+                "fire is high if and only if crossing is high while control is low",
+                |now| {
+                    let fires = now.w.crossing && !now.q.control;
+                    require(now.w.fire == fires, ["fire"], || "wrong".into())
+                },
+            )
             .step(
-                "the control signal stands from the tick after fire or halt to the next arm",
+                "control is high from the tick after fire or halt until the next arm",
                 |now, next| {
                     let control = (now.w.fire || now.i.halt || now.q.control) && !now.i.arm;
                     require(next.q.control == control, ["control"], || {
@@ -176,23 +179,29 @@ impl Specified for Comparator {
                     })
                 },
             )
-            .step("fire says from which side it came", |now, next| {
-                let upward = match now.w.fire {
-                    true => now.q.side == BELOW,
-                    false => now.q.upward,
-                };
-                require(next.q.upward == upward, ["upward"], || {
-                    format!("{upward} expected")
-                })
-            })
-            .step("it is armed from the first arm on", |now, next| {
-                let armed = now.q.armed || now.i.arm;
-                require(next.q.armed == armed, ["armed"], || {
-                    format!("{armed} expected")
-                })
-            })
             .step(
-                "the side is that of the last look since arm",
+                "fire sets upward if the position came from below, and nothing else changes upward",
+                |now, next| {
+                    let upward = match now.w.fire {
+                        true => now.q.side == BELOW,
+                        false => now.q.upward,
+                    };
+                    require(next.q.upward == upward, ["upward"], || {
+                        format!("{upward} expected")
+                    })
+                },
+            )
+            .step(
+                "armed is high from the tick after the first arm",
+                |now, next| {
+                    let armed = now.q.armed || now.i.arm;
+                    require(next.q.armed == armed, ["armed"], || {
+                        format!("{armed} expected")
+                    })
+                },
+            )
+            .step(
+                "side is that of the last comparison since arm, and unknown before the first",
                 |now, next| {
                     let looks = now.i.evaluate && now.i.valid && now.q.armed;
                     let side = match (now.i.arm, looks) {

@@ -120,7 +120,7 @@ impl Specified for CompletionDetector {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step(
-                "it is complete when it stood still for long enough, took effect, or its time is over",
+                "complete follows standstill, effect or the time limit, which sets timed_out",
                 |now, next| {
                     let (i, q, next) = (now.i, now.q, &next.q);
                     let still = match i.position == q.last {
@@ -139,7 +139,7 @@ impl Specified for CompletionDetector {
                 },
             )
             .step(
-                "both times count from the control signal on",
+                "while active is high, elapsed counts all samples and still those at rest",
                 |now, next| {
                     let (i, q, next) = (now.i, now.q, &next.q);
                     let (still, elapsed) = match (i.active && !q.complete, i.evaluate) {
@@ -157,17 +157,20 @@ impl Specified for CompletionDetector {
                     })
                 },
             )
-            .step("the sample before is kept", |now, next| {
+            .step("last holds the previous sample", |now, next| {
                 let last = match now.i.evaluate {
                     true => now.i.position,
                     false => now.q.last,
                 };
                 require(next.q.last == last, ["last"], || "another".into())
             })
-            .always("neither count reaches its greatest value", |now| {
-                let most = (1 << self.time) - 1;
-                let right = now.q.still < most && now.q.elapsed < most;
-                require(right, ["still", "elapsed"], || "it would wrap".into())
-            })
+            .always(
+                "still and elapsed never reach their greatest value",
+                |now| {
+                    let most = (1 << self.time) - 1;
+                    let right = now.q.still < most && now.q.elapsed < most;
+                    require(right, ["still", "elapsed"], || "it would wrap".into())
+                },
+            )
     }
 }

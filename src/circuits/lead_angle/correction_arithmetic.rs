@@ -165,7 +165,7 @@ impl Specified for CorrectionArithmetic {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step(
-                "every completion is corrected, at once or when divided",
+                "corrected is high after every completion, or after its division if there is one",
                 |now, next| {
                     let divides = now.w.divide;
                     let ended = now.q.dividing && now.i.done;
@@ -178,7 +178,7 @@ impl Specified for CorrectionArithmetic {
                 },
             )
             .step(
-                "it learns from a division, or begins with the seed",
+                "a lead time of 0 with an error learns seed, and any other learns by division",
                 |now, next| {
                     let (i, next) = (now.i, &next.q);
                     let learns = i.complete && i.learn && !i.missed;
@@ -194,7 +194,7 @@ impl Specified for CorrectionArithmetic {
                 },
             )
             .step(
-                "the result is the sum within 1 and the last code",
+                "raw is lead_time plus or minus quotient, limited to codes from 1 to the last",
                 |now, next| {
                     if !(now.q.dividing && now.i.done) {
                         return Ok(());
@@ -207,11 +207,14 @@ impl Specified for CorrectionArithmetic {
                     })
                 },
             )
-            .step("the sign is that of error by overrun", |now, next| {
-                let signs = now.i.error.signum() * now.i.overrun.signum();
-                let right = next.q.negative == (signs < 0) || signs == 0;
-                require(!now.w.divide || right, ["negative"], || "wrong".into())
-            })
+            .step(
+                "a division sets negative if error and overrun have opposite signs",
+                |now, next| {
+                    let signs = now.i.error.signum() * now.i.overrun.signum();
+                    let right = next.q.negative == (signs < 0) || signs == 0;
+                    require(!now.w.divide || right, ["negative"], || "wrong".into())
+                },
+            )
     }
 
     /// Times as the memory holds them, and quotients that such a division can have.

@@ -117,14 +117,14 @@ impl Specified for DifferenceHistory {
         let range = 1i64 << position;
         Invariants::<Self>::new()
             .step(
-                "at CK every sample becomes a CK older, between CKs nothing moves",
+                "at CK every sample moves to the next stage, and between CKs no stage changes",
                 move |now, next| {
                     let taken = stored(now.i.position, position);
                     moved_on(now.i.ck, &now.q.stages, taken, &next.q.stages)
                 },
             )
             .step(
-                "at CK the way is that since the sample a tap of CKs before",
+                "only CK changes difference, to the distance from the sample of tap CKs ago",
                 move |now, next| {
                     let (tap, way) = (now.i.tap as usize, next.q.pair.difference);
                     let right = match now.i.ck && (1..=stages).contains(&tap) {

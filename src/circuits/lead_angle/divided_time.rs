@@ -100,7 +100,7 @@ impl Specified for DividedTime {
         let range = 1u64 << self.tap();
         Invariants::<Self>::new()
             .always(
-                "the data are N and tap, and no tap is no lead",
+                "ratio and tap are the two parts of lead_time, and both are 0 if tap is 0",
                 move |now| {
                     let (ratio, tap) = (now.i.lead_time / range, now.i.lead_time % range);
                     let ratio = if self.one { 1 } else { ratio };
@@ -111,7 +111,7 @@ impl Specified for DividedTime {
                     })
                 },
             )
-            .always("the time is N taps", move |now| {
+            .always("code is ratio times tap", move |now| {
                 let expected = now.w.ratio * now.w.tap % (1 << self.time());
                 require(now.w.code == expected, ["code"], || {
                     format!("{expected} expected")

@@ -78,7 +78,7 @@ impl Circuit for ExactRelation {
 impl Specified for ExactRelation {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new().always(
-            "the divisor is the distance of a target ahead, the overrun otherwise",
+            "divide_by is the distance to a target that lay ahead, otherwise the overrun",
             |now| {
                 let (overrun, error, w) = (now.i.overrun, now.i.error, now.w);
                 let ahead = match overrun {

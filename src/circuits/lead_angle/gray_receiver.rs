@@ -126,7 +126,7 @@ impl Specified for GrayReceiver {
         let codes = 1i64 << self.code;
         Invariants::<Self>::new()
             .always(
-                "a word is taken two ticks behind its strobe, by its place in the turn",
+                "take is high three ticks after strobe rises, with the word's place in the turn",
                 move |now| {
                     // By counting through the code; none where the turn is without it.
                     let (turn, word) = (now.i.turn as i64, now.q.sync_code);
@@ -142,14 +142,17 @@ impl Specified for GrayReceiver {
                     })
                 },
             )
-            .step("wires pass their flip-flops, the word two", |now, next| {
-                let passed = next.q.pin_code == now.i.code
-                    && next.q.sync_code == now.q.pin_code
-                    && next.q.sync_strobe
-                        == (now.q.sync_strobe << 1 & 15 | u64::from(now.i.strobe));
-                require(passed, ["pin_code", "sync_code", "sync_strobe"], || {
-                    "not so".into()
-                })
-            })
+            .step(
+                "code passes two flip-flops and strobe four, one per tick",
+                |now, next| {
+                    let passed = next.q.pin_code == now.i.code
+                        && next.q.sync_code == now.q.pin_code
+                        && next.q.sync_strobe
+                            == (now.q.sync_strobe << 1 & 15 | u64::from(now.i.strobe));
+                    require(passed, ["pin_code", "sync_code", "sync_strobe"], || {
+                        "not so".into()
+                    })
+                },
+            )
     }
 }

@@ -74,14 +74,17 @@ impl Specified for Lead {
     fn invariants(&self) -> Invariants<'_, Self> {
         let range = 1i128 << self.position;
         Invariants::<Self>::new()
-            .always("the difference is the short way round", move |now| {
-                let way = i128::from(now.i.present) - i128::from(now.i.old);
-                let difference = i128::from(now.w.difference);
-                let right = (way - difference) % range == 0;
-                require(right, ["difference"], || format!("{difference} for {way}"))
-            })
             .always(
-                "the lead is N of them, on the ring of positions",
+                "difference is the shorter distance from old to present",
+                move |now| {
+                    let way = i128::from(now.i.present) - i128::from(now.i.old);
+                    let difference = i128::from(now.w.difference);
+                    let right = (way - difference) % range == 0;
+                    require(right, ["difference"], || format!("{difference} for {way}"))
+                },
+            )
+            .always(
+                "lead equals ratio times difference, modulo the position range",
                 move |now| {
                     let ways = i128::from(now.i.ratio)
                         * (i128::from(now.i.present) - i128::from(now.i.old));

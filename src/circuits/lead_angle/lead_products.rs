@@ -69,7 +69,7 @@ impl Specified for LeadProducts {
     fn invariants(&self) -> Invariants<'_, Self> {
         let range = 1i128 << self.position;
         Invariants::<Self>::new().always(
-            "the prediction is the sample and N times the way of the tap, on the ring",
+            "predicted is present plus ratio times (present minus old), modulo the range",
             move |now| {
                 let [present, old] = [now.i.present, now.i.old].map(i128::from);
                 let expected = present + i128::from(now.i.ratio) * (present - old);

@@ -144,7 +144,7 @@ impl Specified for PhaseCounter {
         let crosses = |q: &Reg<Value>| q.sync_secondary >> 1 & 3 == 1;
         Invariants::<Self>::new()
             .step(
-                "the phase goes round the carrier's period",
+                "phase counts through the carrier's period, square_wave is high in its first half",
                 move |now, next| {
                     let (phase, counts) = (now.q.phase as i64, counts(now.i.modulus));
                     // A period that was cut short is over.
@@ -161,7 +161,7 @@ impl Specified for PhaseCounter {
                 },
             )
             .step(
-                "a crossing takes the phase of two ticks ago",
+                "a rise of the secondary stores the phase of two ticks ago in place",
                 move |now, next| {
                     let (q, counts) = (now.q, counts(now.i.modulus));
                     let phase = q.phase as i64;
@@ -179,7 +179,7 @@ impl Specified for PhaseCounter {
                 },
             )
             .step(
-                "a period of the secondary has 3/4 to 5/4 of the carrier's, or is at fault",
+                "a secondary period below 3/4 or above 5/4 of the carrier's sets fault",
                 move |now, next| {
                     let (q, counts) = (now.q, counts(now.i.modulus));
                     let elapsed = 4 * q.elapsed as i64;

@@ -112,7 +112,7 @@ impl Specified for LeadPlacement {
         let placement = self.placement;
         Invariants::<Self>::new()
             .always(
-                "position and target are as far apart as with all of the lead on the position",
+                "compared_position minus compared_target equals position plus lead minus target",
                 move |now| {
                     let apart = now.w.compared_position - now.w.compared_target;
                     let wanted = now.i.position + now.i.lead - now.i.target;
@@ -122,17 +122,20 @@ impl Specified for LeadPlacement {
                     })
                 },
             )
-            .always("each bears its part of the lead", move |now| {
-                let lead = now.i.lead;
-                let part = match placement {
-                    Placement::Position => lead,
-                    Placement::Target => 0,
-                    Placement::Halves => lead.div_euclid(2),
-                };
-                let moved = now.w.compared_position - now.i.position;
-                require((moved - part) % range == 0, ["compared_position"], || {
-                    format!("{moved} of {lead}")
-                })
-            })
+            .always(
+                "position and target each receive the part of the lead that the placement assigns",
+                move |now| {
+                    let lead = now.i.lead;
+                    let part = match placement {
+                        Placement::Position => lead,
+                        Placement::Target => 0,
+                        Placement::Halves => lead.div_euclid(2),
+                    };
+                    let moved = now.w.compared_position - now.i.position;
+                    require((moved - part) % range == 0, ["compared_position"], || {
+                        format!("{moved} of {lead}")
+                    })
+                },
+            )
     }
 }

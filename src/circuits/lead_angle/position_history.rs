@@ -159,14 +159,14 @@ impl Specified for PositionHistory {
         let &PositionHistory { stages, position } = self;
         Invariants::<Self>::new()
             .step(
-                "at CK every sample becomes a CK older, between CKs nothing moves",
+                "at CK every sample moves to the next stage, and between CKs no stage changes",
                 move |now, next| {
                     let taken = stored(now.i.position, position);
                     moved_on(now.i.ck, &now.q.stages, taken, &next.q.stages)
                 },
             )
             .step(
-                "the pair is the sample and the one a tap of CKs before it",
+                "only CK changes the pair, to the sample and the sample of tap CKs ago",
                 move |now, next| {
                     let (tap, before, pair) = (now.i.tap as usize, &now.q.pair, &next.q.pair);
                     if !now.i.ck {
@@ -189,7 +189,7 @@ impl Specified for PositionHistory {
                 },
             )
             .step(
-                "it is fresh after CK, and enough where the tap reaches back to the restart at most",
+                "fresh follows CK, and enough is high if tap does not reach beyond the restart",
                 |now, next| {
                     let (ck, restart, before) = (now.i.ck, now.i.restart, &now.q.pair);
                     let enough = match ck {
@@ -203,12 +203,15 @@ impl Specified for PositionHistory {
                     })
                 },
             )
-            .step("samples are counted up to K", move |now, next| {
-                let more = (now.q.pair.samples + u64::from(now.i.ck)).min(stages as u64);
-                let expected = if now.i.restart { 0 } else { more };
-                let right = next.q.pair.samples == expected;
-                require(right, ["pair.samples"], || format!("{expected} expected"))
-            })
+            .step(
+                "samples counts the samples since restart, up to K",
+                move |now, next| {
+                    let more = (now.q.pair.samples + u64::from(now.i.ck)).min(stages as u64);
+                    let expected = if now.i.restart { 0 } else { more };
+                    let right = next.q.pair.samples == expected;
+                    require(right, ["pair.samples"], || format!("{expected} expected"))
+                },
+            )
     }
 
     fn applies(&self, i: &In<Value>) -> bool {

@@ -67,7 +67,7 @@ impl Specified for RamHistory {
         let addresses = 1u64 << tap_width(stages);
         Invariants::<Self>::new()
             .step(
-                "a sample is written below the next address, and no other changes",
+                "CK writes the sample at address and counts address up, and changes no other word",
                 move |now, next| {
                     let (ck, at) = (now.i.ck, now.q.address);
                     let address = (at + u64::from(ck)) % addresses;
@@ -83,7 +83,7 @@ impl Specified for RamHistory {
                 },
             )
             .step(
-                "the pair is the sample and the one a tap of samples before it",
+                "at CK, pair.old becomes the sample of tap CKs ago, and otherwise it stays",
                 move |now, next| {
                     let (tap, q) = (now.i.tap, now.q);
                     let old = match now.i.ck && tap > 0 && tap <= stages as u64 {

@@ -134,7 +134,7 @@ impl Specified for RatioLogic {
         let known = codes.clone();
         Invariants::<Self>::new()
             .always(
-                "a code gives its ratio and its tap, nothing else is on the grid",
+                "on_grid is high only if lead_time is a code, with the ratio and tap of that code",
                 move |now| {
                     let time = now.i.lead_time;
                     let given = (now.w.ratio, now.w.tap, now.w.on_grid);
@@ -150,7 +150,7 @@ impl Specified for RatioLogic {
                 },
             )
             .always(
-                "between codes it is one of the two around, past the last the last",
+                "code is one of the two codes around lead_time, or the last for longer times",
                 move |now| {
                     let (time, code) = (now.i.lead_time, now.w.code);
                     let below = codes.iter().rev().find(|code| code.time <= time);

@@ -136,7 +136,7 @@ impl Specified for Refinement {
         let words = |w: &Net<Value>| (w.first_factor, w.second_factor, w.divide_by);
         Invariants::<Self>::new()
             .always(
-                "a division begins with a start, or behind the first",
+                "divide is high at start, and after a first division with error below overrun",
                 move |now| {
                     let (i, q, w) = (now.i, now.q, now.w);
                     let sign = if i.negative { -1 } else { 1 };
@@ -159,7 +159,7 @@ impl Specified for Refinement {
                 },
             )
             .step(
-                "a second follows where the error is below the overrun",
+                "an error below the overrun needs a second division, and done follows the last",
                 |now, next| {
                     let (i, q) = (now.i, now.q);
                     let refined = q.state == FIRST && q.error_amount < q.overrun_amount;
@@ -176,16 +176,19 @@ impl Specified for Refinement {
                     })
                 },
             )
-            .step("both amounts are those of the start", |now, next| {
-                let (i, q) = (now.i, now.q);
-                let expected = match q.state == IDLE && i.start {
-                    true => (i.multiplicand, i.divisor),
-                    false => (q.error_amount, q.overrun_amount),
-                };
-                let held = (next.q.error_amount, next.q.overrun_amount);
-                require(held == expected, ["error_amount", "overrun_amount"], || {
-                    format!("{held:?} where {expected:?} is expected")
-                })
-            })
+            .step(
+                "start in idle stores error_amount and overrun_amount, and otherwise they stay",
+                |now, next| {
+                    let (i, q) = (now.i, now.q);
+                    let expected = match q.state == IDLE && i.start {
+                        true => (i.multiplicand, i.divisor),
+                        false => (q.error_amount, q.overrun_amount),
+                    };
+                    let held = (next.q.error_amount, next.q.overrun_amount);
+                    require(held == expected, ["error_amount", "overrun_amount"], || {
+                        format!("{held:?} where {expected:?} is expected")
+                    })
+                },
+            )
     }
 }

@@ -103,7 +103,7 @@ impl Specified for SpeedDetector {
         let range = 1i128 << self.position;
         Invariants::<Self>::new()
             .step(
-                "a gate ends with its last CK and gives its way",
+                "only the last CK of a gate sets speed, to the distance moved in the gate",
                 move |now, next| {
                     let (q, i, next) = (now.q, now.i, &next.q);
                     let ends = i.ck && q.begun && q.count + 1 >= i.gate.max(1);
@@ -119,7 +119,7 @@ impl Specified for SpeedDetector {
                 },
             )
             .step(
-                "a gate begins where the one before ends, or with the first sample",
+                "a gate begins when the previous one ends, or with the first sample",
                 |now, next| {
                     let (q, i, next) = (now.q, now.i, &next.q);
                     let ends = i.ck && q.begun && q.count + 1 >= i.gate.max(1);
@@ -142,11 +142,14 @@ impl Specified for SpeedDetector {
                     })
                 },
             )
-            .step("the sample is fresh after CK", |now, next| {
-                let (ck, restart) = (now.i.ck, now.i.restart);
-                let present = if ck { now.i.position } else { now.q.present };
-                let right = next.q.present == present && next.q.fresh == (ck && !restart);
-                require(right, ["present", "fresh"], || "another".into())
-            })
+            .step(
+                "present holds the last sample, and fresh is high in the tick after CK",
+                |now, next| {
+                    let (ck, restart) = (now.i.ck, now.i.restart);
+                    let present = if ck { now.i.position } else { now.q.present };
+                    let right = next.q.present == present && next.q.fresh == (ck && !restart);
+                    require(right, ["present", "fresh"], || "another".into())
+                },
+            )
     }
 }

@@ -97,7 +97,7 @@ impl Specified for SpeedLead {
     fn invariants(&self) -> Invariants<'_, Self> {
         let range = 1i128 << self.position;
         Invariants::<Self>::new().always(
-            "the lead is the speed's share, rounded down",
+            "lead is speed times lead_parameter divided by 256, rounded down",
             move |now| {
                 let product = i128::from(now.p.detector.q.speed) * i128::from(now.i.lead_parameter);
                 let lead = i128::from(now.w.lead);

@@ -193,24 +193,30 @@ impl Specified for StepSequencer {
     fn invariants(&self) -> Invariants<'_, Self> {
         let half = 1i64 << (self.position - 1);
         Invariants::<Self>::new()
-            .step("a step goes through its states in order", |now, next| {
-                let expected = after(now.q, now.i);
-                require(next.q.state == expected, ["state"], || {
-                    format!("{} expected", STATES[expected as usize])
-                })
-            })
-            .always("every output belongs to its state", |now| {
-                let q = now.q;
-                let right = q.load == (q.state == LOAD)
-                    && q.arm == (q.state == ARM)
-                    && q.braking == (q.state == BRAKE)
-                    && q.busy == (q.state != IDLE);
-                require(right, ["load", "arm", "braking", "busy"], || {
-                    format!("in {}", STATES[q.state as usize])
-                })
-            })
             .step(
-                "the motor is on in the move, and stays on where the body goes on",
+                "every transition is one of the sequence of a step",
+                |now, next| {
+                    let expected = after(now.q, now.i);
+                    require(next.q.state == expected, ["state"], || {
+                        format!("{} expected", STATES[expected as usize])
+                    })
+                },
+            )
+            .always(
+                "load, arm and braking are high in their own state only, busy in all but idle",
+                |now| {
+                    let q = now.q;
+                    let right = q.load == (q.state == LOAD)
+                        && q.arm == (q.state == ARM)
+                        && q.braking == (q.state == BRAKE)
+                        && q.busy == (q.state != IDLE);
+                    require(right, ["load", "arm", "braking", "busy"], || {
+                        format!("in {}", STATES[q.state as usize])
+                    })
+                },
+            )
+            .step(
+                "drive is high in move, low in idle, and elsewhere stays high only with passing",
                 |now, next| {
                     let stays = now.i.passing && now.q.drive;
                     let expected = match next.q.state {
@@ -223,20 +229,23 @@ impl Specified for StepSequencer {
                     })
                 },
             )
-            .step("steps come in turn, each after its rest", |now, next| {
-                let ends = now.q.state == REST && next.q.state != REST;
-                let step = now.q.step;
-                let expected = match ends {
-                    true if step >= now.i.last_step => 0,
-                    true => step + 1,
-                    false => step,
-                };
-                require(next.q.step == expected, ["step"], || {
-                    format!("{expected} expected")
-                })
-            })
             .step(
-                "the drive turns to the target, the short way round",
+                "step advances at the end of rest, from last_step to 0",
+                |now, next| {
+                    let ends = now.q.state == REST && next.q.state != REST;
+                    let step = now.q.step;
+                    let expected = match ends {
+                        true if step >= now.i.last_step => 0,
+                        true => step + 1,
+                        false => step,
+                    };
+                    require(next.q.step == expected, ["step"], || {
+                        format!("{expected} expected")
+                    })
+                },
+            )
+            .step(
+                "in arm, reverse is set for the shorter way to the target, and otherwise it stays",
                 move |now, next| {
                     let armed = now.q.state == ARM;
                     let way = now.i.target - now.i.position;
@@ -248,8 +257,8 @@ impl Specified for StepSequencer {
                 },
             )
             .step(
-                "a halt of the move asks for the control signal once; it is remembered, as is a stop in place \
-                 of an operation",
+                "the first halt in move makes halting high for a tick and sets missed, and a stop \
+                 in place of an operation also sets missed",
                 |now, next| {
                     let q = now.q;
                     let halts = now.i.halt && q.state == MOVE && !q.missed;
@@ -261,14 +270,17 @@ impl Specified for StepSequencer {
                     })
                 },
             )
-            .step("the rest counts CKs", |now, next| {
-                let stays = now.q.state == REST && next.q.state == REST;
-                let more = now.q.count + u64::from(now.i.ck);
-                let expected = if stays { more } else { 0 };
-                require(next.q.count == expected, ["count"], || {
-                    format!("{expected} expected")
-                })
-            })
+            .step(
+                "count counts CKs in rest, and is 0 otherwise",
+                |now, next| {
+                    let stays = now.q.state == REST && next.q.state == REST;
+                    let more = now.q.count + u64::from(now.i.ck);
+                    let expected = if stays { more } else { 0 };
+                    require(next.q.count == expected, ["count"], || {
+                        format!("{expected} expected")
+                    })
+                },
+            )
     }
 
     /// Two last steps and the greatest: any other differs in nothing.

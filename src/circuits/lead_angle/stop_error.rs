@@ -89,7 +89,7 @@ impl Specified for StopError {
         };
         Invariants::<Self>::new()
             .step(
-                "the register keeps where the control signal began",
+                "fire stores the position in trigger_position, which otherwise stays",
                 |now, next| {
                     let expected = match now.i.fire {
                         true => now.i.position,
@@ -99,14 +99,17 @@ impl Specified for StopError {
                     require(right, ["trigger_position"], || "another".into())
                 },
             )
-            .always("overrun and error are the ways since", move |now| {
-                let position = now.i.position;
-                let ways = [
-                    position - now.q.trigger_position - now.w.overrun,
-                    position - now.i.target - sign * now.w.error,
-                ];
-                let right = ways.iter().all(|way| way % range == 0);
-                require(right, ["overrun", "error"], || format!("{ways:?} off"))
-            })
+            .always(
+                "overrun and error are the distances from trigger_position and from target",
+                move |now| {
+                    let position = now.i.position;
+                    let ways = [
+                        position - now.q.trigger_position - now.w.overrun,
+                        position - now.i.target - sign * now.w.error,
+                    ];
+                    let right = ways.iter().all(|way| way % range == 0);
+                    require(right, ["overrun", "error"], || format!("{ways:?} off"))
+                },
+            )
     }
 }

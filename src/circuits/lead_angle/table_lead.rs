@@ -230,7 +230,7 @@ impl Specified for TableLead {
         let (leads, increments) = (words(leads), words(increments));
         let (range, spacing) = (1i128 << self.position, 1i128 << fraction);
         Invariants::<Self>::new().always(
-            "the lead is on the line between the words around the speed, rounded down",
+            "lead is interpolated between the table words around the speed, rounded down",
             move |now| {
                 let half = leads.len() as i128 / 2 * spacing;
                 let speed = i128::from(now.see(|s| s.p.detector.q.speed)).clamp(-half, half - 1);

@@ -79,7 +79,7 @@ impl Specified for TargetSetter {
         let shown = move |q: &Reg<Value>| (bits(q.target), q.speed);
         Invariants::<Self>::new()
             .step(
-                "the outputs show the step that was loaded last",
+                "target and speed are those of the step that was loaded last",
                 move |now, next| {
                     let expected = match now.i.load {
                         true => word(now.q, now.i.step),
@@ -90,17 +90,20 @@ impl Specified for TargetSetter {
                     })
                 },
             )
-            .step("a write changes its step and no other", move |now, next| {
-                let i = now.i;
-                let right = (0..1 << self.step).all(|step: u64| {
-                    let expected = match i.write && i.write_step == step {
-                        true => (bits(i.write_target), i.write_speed),
-                        false => word(now.q, step),
-                    };
-                    word(&next.q, step) == expected
-                });
-                require(right, ["targets", "speeds"], || "another".into())
-            })
+            .step(
+                "a write changes the words of write_step and no others",
+                move |now, next| {
+                    let i = now.i;
+                    let right = (0..1 << self.step).all(|step: u64| {
+                        let expected = match i.write && i.write_step == step {
+                            true => (bits(i.write_target), i.write_speed),
+                            false => word(now.q, step),
+                        };
+                        word(&next.q, step) == expected
+                    });
+                    require(right, ["targets", "speeds"], || "another".into())
+                },
+            )
     }
 
     /// Both words of a step alike: none looks at the other.

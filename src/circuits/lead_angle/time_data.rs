@@ -123,7 +123,7 @@ impl Specified for TimeData {
         let own = |i: &In<Value>| if i.common { 0 } else { i.step };
         Invariants::<Self>::new()
             .step(
-                "the output shows the time that was loaded last",
+                "lead_time is the time that was loaded last",
                 move |now, next| {
                     let expected = match now.i.load {
                         true => now.q.times[own(now.i) as usize],
@@ -135,7 +135,7 @@ impl Specified for TimeData {
                 },
             )
             .step(
-                "what is learned goes to the step that runs, a write on the grid to its own",
+                "a learned time is stored for its step, else a write on the grid for write_step",
                 move |now, next| {
                     let i = now.i;
                     let right = (0..1 << self.step).all(|step: u64| {
@@ -153,7 +153,7 @@ impl Specified for TimeData {
                 },
             )
             .step(
-                "a write that is not done is said to be refused",
+                "refused is set by a write that is not stored, and stays until clear",
                 |now, next| {
                     let i = now.i;
                     let done = i.write_on_grid && !i.learned;

@@ -61,7 +61,7 @@ impl Specified for TimeLimit {
     fn invariants(&self) -> Invariants<'_, Self> {
         let longest = self.stages as u64;
         Invariants::<Self>::new().always(
-            "a time is that of the history, at most all of it",
+            "code is lead_time limited to the history, and on_grid is low if it was limited",
             move |now| {
                 let time = now.i.lead_time;
                 let right =

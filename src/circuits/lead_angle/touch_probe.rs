@@ -75,7 +75,7 @@ impl Specified for TouchProbe {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step(
-                "the first rise since the control signal takes the count",
+                "the first rise of effect while active is high stores the position in latched",
                 |now, next| {
                     let (i, q, next) = (now.i, now.q, &next.q);
                     let (taken, latched) = match (i.active, q.taken, q.effect_before, i.effect) {
@@ -92,7 +92,7 @@ impl Specified for TouchProbe {
                 },
             )
             .always(
-                "what is measured is of the effect, or, up to it, of the body",
+                "measured is latched after an effect, and the present position before it",
                 |now| {
                     let expected = match now.q.taken {
                         true => now.q.latched,

@@ -170,7 +170,7 @@ impl Specified for TrackingLoop {
         let conversions = (1u64 << self.settling) - 1;
         Invariants::<Self>::new()
             .step(
-                "a conversion moves speed and angle by the error, and nothing else does",
+                "only a conversion changes speed and phase, and it corrects them by the error",
                 move |now, next| {
                     let (sine, cosine) = (now.i.quadrature, now.i.in_phase);
                     let error = match (cosine < 0, sine < 0) {
@@ -193,7 +193,7 @@ impl Specified for TrackingLoop {
                 },
             )
             .step(
-                "places come when the loop has settled, and are faults below the least signal",
+                "take is high with done once settled, and fault while in_phase is too small",
                 move |now, next| {
                     let over = now.q.settled == conversions;
                     let settled = now.q.settled + u64::from(now.i.done && !over);

@@ -132,7 +132,7 @@ impl Specified for Unwrapper {
         let range = 1i64 << self.position;
         let all = 1i64 << self.place;
         Invariants::<Self>::new().step(
-            "a sample moves the position by the shorter way round, or is its place at first",
+            "the first sample loads its place, and each later one adds the shorter way round",
             move |now, next| {
                 let (i, q, after) = (now.i, now.q, &next.q);
                 let counts = if i.modulus == 0 {

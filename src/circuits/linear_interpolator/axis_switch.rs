@@ -76,20 +76,23 @@ impl Circuit for AxisSwitch {
 
 impl Specified for AxisSwitch {
     fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new().step("load brings master and slave to their axes", |now, next| {
-            let i = now.i;
-            let slave = wrapped(i.slave_from + i.integral, self.position);
-            let commands = match i.swapped {
-                false => (i.position, slave),
-                true => (slave, i.position),
-            };
-            let expected = match (i.clear, i.load) {
-                (true, _) => (0, 0),
-                (false, true) => commands,
-                (false, false) => (now.q.x, now.q.y),
-            };
-            let right = (next.q.x, next.q.y) == expected;
-            require(right, ["x", "y"], || format!("{expected:?} expected"))
-        })
+        Invariants::<Self>::new().step(
+            "load gives each axis its command, clear sets both to 0, and otherwise both stay",
+            |now, next| {
+                let i = now.i;
+                let slave = wrapped(i.slave_from + i.integral, self.position);
+                let commands = match i.swapped {
+                    false => (i.position, slave),
+                    true => (slave, i.position),
+                };
+                let expected = match (i.clear, i.load) {
+                    (true, _) => (0, 0),
+                    (false, true) => commands,
+                    (false, false) => (now.q.x, now.q.y),
+                };
+                let right = (next.q.x, next.q.y) == expected;
+                require(right, ["x", "y"], || format!("{expected:?} expected"))
+            },
+        )
     }
 }

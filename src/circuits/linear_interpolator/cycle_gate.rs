@@ -48,7 +48,7 @@ impl Circuit for CycleGate {
 impl Specified for CycleGate {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new().step(
-            "cycles wait for an axis that is not in position",
+            "hold is high one tick after exact_stop is high and an axis is not in position",
             |now, next| {
                 let i = now.i;
                 let there = i.in_position_x && i.in_position_y;

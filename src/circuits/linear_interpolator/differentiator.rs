@@ -62,18 +62,15 @@ impl Circuit for Differentiator {
 impl Specified for Differentiator {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
-            .always(
-                "increment and delay element add up to the position",
-                |now| {
-                    let sum = now.w.increment + now.q.lagged;
-                    let right = wrapped(sum - now.i.position, self.position) == 0;
-                    require(right, ["increment", "lagged", "position"], || {
-                        format!("{sum}")
-                    })
-                },
-            )
+            .always("increment plus lagged equals position", |now| {
+                let sum = now.w.increment + now.q.lagged;
+                let right = wrapped(sum - now.i.position, self.position) == 0;
+                require(right, ["increment", "lagged", "position"], || {
+                    format!("{sum}")
+                })
+            })
             .step(
-                "the delay element takes the start, else a new position, else nothing",
+                "lagged takes from at load, position at valid without load, and otherwise stays",
                 |now, next| {
                     let expected = match (now.i.load, now.i.valid) {
                         (true, _) => now.i.from,

@@ -127,17 +127,20 @@ impl Specified for LineLaw {
         let rule = self.integrator.rule;
         let first = move |master: i64| if rule == Rule::Centred { master / 2 } else { 0 };
         Invariants::<Self>::new()
-            .always("Δx·I + B = Δy·Σδx + B0 on every scan", move |now| {
-                let [master, slave, sum, integral, remainder] = words(now);
-                let first = first(master);
-                let right = master * integral + remainder == slave * sum + first;
-                let signals = ["integral", "remainder", "sum"];
-                require(!settled(now) || right, signals, || {
-                    format!("{master}·{integral} + {remainder} is not {slave}·{sum} + {first}")
-                })
-            })
             .always(
-                "B is smaller than Δx, and has the sign that the rule says",
+                "after every scan, Δx·I + B equals Δy·Σδx + B0",
+                move |now| {
+                    let [master, slave, sum, integral, remainder] = words(now);
+                    let first = first(master);
+                    let right = master * integral + remainder == slave * sum + first;
+                    let signals = ["integral", "remainder", "sum"];
+                    require(!settled(now) || right, signals, || {
+                        format!("{master}·{integral} + {remainder} is not {slave}·{sum} + {first}")
+                    })
+                },
+            )
+            .always(
+                "B is less than Δx in magnitude, and has the sign that the rounding rule requires",
                 move |now| {
                     let [master, slave, sum, _, remainder] = words(now);
                     let sign = match rule {
@@ -152,7 +155,7 @@ impl Specified for LineLaw {
                 },
             )
             .always(
-                "at the end I is Δy, and B what it was at the beginning",
+                "at the end of the line, I equals Δy and B equals B0",
                 move |now| {
                     let [master, slave, sum, integral, remainder] = words(now);
                     let first = first(master);
@@ -164,7 +167,7 @@ impl Specified for LineLaw {
                 },
             )
             .always(
-                "a slave with the smaller distance moves no farther than its master",
+                "a slave with no more distance than its master never moves farther in a scan",
                 |now| {
                     let [master, slave, sum, integral, _] = words(now);
                     let slave_moved = (integral - now.q.integral_before).abs();

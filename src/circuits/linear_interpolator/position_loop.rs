@@ -101,38 +101,41 @@ impl Circuit for PositionLoop {
 impl Specified for PositionLoop {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
-            .step("a scan drives towards the command", |now, next| {
-                let way = now.i.command - now.p.counter.q.position;
-                let way = wrapped(way, self.widths.position);
-                let (drive, gain) = (next.p.control.q.speed_ref, now.i.gain);
-                let right =
-                    drive.signum() * way.signum() >= 0 && (way != 0 && gain != 0 || drive == 0);
-                require(!now.i.scan || right, ["speed_ref", "command"], || {
-                    format!("{drive} to go {way}")
-                })
-            })
-            .step("between scans the reference holds", |now, next| {
+            .step(
+                "a scan sets speed_ref towards the command, and to 0 at the command",
+                |now, next| {
+                    let way = now.i.command - now.p.counter.q.position;
+                    let way = wrapped(way, self.widths.position);
+                    let (drive, gain) = (next.p.control.q.speed_ref, now.i.gain);
+                    let right =
+                        drive.signum() * way.signum() >= 0 && (way != 0 && gain != 0 || drive == 0);
+                    require(!now.i.scan || right, ["speed_ref", "command"], || {
+                        format!("{drive} to go {way}")
+                    })
+                },
+            )
+            .step("between scans, speed_ref keeps its value", |now, next| {
                 let held = next.p.control.q.speed_ref == now.p.control.q.speed_ref;
                 require(now.i.scan || held, ["speed_ref", "scan"], || {
                     "changed by itself".into()
                 })
             })
-            .step(
-                "clear makes the feedback 0 and takes the flag off",
-                |now, next| {
-                    let counter = &next.p.counter.q;
-                    let cleared = counter.position == 0 && !counter.lost;
-                    require(!now.i.clear || cleared, ["feedback", "lost"], || {
-                        "not cleared".into()
-                    })
+            .step("clear sets feedback to 0 and resets lost", |now, next| {
+                let counter = &next.p.counter.q;
+                let cleared = counter.position == 0 && !counter.lost;
+                require(!now.i.clear || cleared, ["feedback", "lost"], || {
+                    "not cleared".into()
+                })
+            })
+            .always(
+                "with a window of 0, in_position is high if and only if feedback equals command",
+                |now| {
+                    let there = now.i.command == now.p.counter.q.position;
+                    let said = now.w.in_position;
+                    let right = now.i.window != 0 || said == there;
+                    require(right, ["in_position", "feedback"], || format!("{said}"))
                 },
             )
-            .always("in position with a window of 0 is at the command", |now| {
-                let there = now.i.command == now.p.counter.q.position;
-                let said = now.w.in_position;
-                let right = now.i.window != 0 || said == there;
-                require(right, ["in_position", "feedback"], || format!("{said}"))
-            })
     }
 
     /// Windows 0 and 1 only: the others are those of the position control.

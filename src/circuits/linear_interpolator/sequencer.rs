@@ -286,63 +286,63 @@ impl Circuit for Sequencer {
         let kept = (!q.late | next.late) & (!q.refused | next.refused);
         vec![
             Property::always(
-                "the ways are the distances without their signs",
+                "way_x and way_y are the magnitudes of delta_x and delta_y",
                 &["way_x", "way_y"],
                 amount(w.way_x, q.delta_x) & amount(w.way_y, q.delta_y),
             ),
             Property::step(
                 match self.master {
                     MasterAxis::Longer => {
-                        "the master axis is the one with the greater distance, X where they are alike"
+                        "the master is the axis with the greater distance, or X if both are equal"
                     }
-                    MasterAxis::X => "X is the master axis unless it stands",
-                    MasterAxis::Y => "Y is the master axis unless it stands",
+                    MasterAxis::X => "X is the master axis unless its distance is 0",
+                    MasterAxis::Y => "Y is the master axis unless its distance is 0",
                 },
                 &["swapped", "master", "slave"],
                 !plan | (swapped & y_first) | (!swapped & x_first),
             ),
             Property::step(
-                "distances are those from command to target, or the target is refused",
+                "fetch stores the distances to the target, and too_far if one overflows",
                 &["delta_x", "delta_y", "too_far"],
                 !fetch | (near_x & near_y & told),
             ),
             Property::step(
-                "no cycle begins with a distance that is wrong",
+                "with too_far, plan leads to idle and sets refused unless halt is high",
                 &["state", "refused"],
                 !(q.too_far & plan) | (ended & (i.halt | next.refused)),
             ),
             Property::step(
-                "an abort before the start of a cycle ends it, none begins with one",
+                "halt in any state but run leads to idle, without start and pop",
                 &["state", "start"],
                 !i.halt | runs | (ended & !next.start & !next.pop),
             ),
             Property::step(
-                "distances and starts stand while a cycle runs",
+                "in run, the distances, the starting points and the master axis do not change",
                 &["master", "slave", "swapped"],
                 !runs | (stands & !(next.swapped ^ q.swapped)),
             ),
             Property::step(
-                "a scan is begun where nothing is computed, and only with a cycle",
+                "a scan sets advance only in run, and only while nothing is being computed",
                 &["advance"],
                 !next.advance | (i.pattern_ready & rests & runs & i.scan),
             ),
             Property::step(
-                "a start comes once, when the distances stand",
+                "start is high in the state begin, which follows plan, and in no other",
                 &["start", "state"],
                 !(next.start ^ starts) & (!next.start | plan),
             ),
             Property::step(
-                "a scan that comes while one is computed is flagged",
+                "a scan in run sets late if the previous scan is still being computed",
                 &["late"],
                 !runs | !i.scan | !q.computing | (rests & waits) | next.late,
             ),
             Property::always(
-                "a cycle ends only when its last commands are out",
+                "over is low while load, integrating, pattern_valid or pattern_active is high",
                 &["over"],
                 !w.over | !(i.load | i.integrating | i.pattern_valid | i.pattern_active),
             ),
             Property::step(
-                "flags go by clear alone, which acts between cycles",
+                "clear in idle makes home high, and nothing else resets late or refused",
                 &["late", "refused", "home"],
                 !(cleared ^ w.home) & (kept | cleared),
             ),

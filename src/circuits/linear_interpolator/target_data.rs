@@ -219,7 +219,7 @@ impl Specified for TargetData {
         let most = (1 << self.widths.address) - 1;
         Invariants::<Self>::new()
             .step(
-                "a push goes behind what waits, a pop takes the first, a flush all",
+                "push appends a target, pop removes the oldest, and flush removes all",
                 move |now, next| {
                     let i = now.i;
                     let mut expected = self.waiting(now.q);
@@ -236,20 +236,27 @@ impl Specified for TargetData {
                     })
                 },
             )
-            .step("the outputs show what was popped last", |now, next| {
-                let popped = now.i.pop && !now.i.flush;
-                let first = self.waiting(now.q).into_iter().next().filter(|_| popped);
-                let expected = first.unwrap_or_else(|| self.shown(now.q));
-                let signals = ["target_x", "target_y"];
-                require(self.shown(&next.q) == expected, signals, || {
-                    format!("{expected:?}")
-                })
-            })
-            .always("ready unless full, available unless empty", move |now| {
-                let level = self.level(now.q);
-                let right = now.w.ready == (level < most as u64) && now.w.available == (level > 0);
-                require(right, ["ready", "available"], || format!("{level} wait"))
-            })
+            .step(
+                "the outputs hold the target that was popped last",
+                |now, next| {
+                    let popped = now.i.pop && !now.i.flush;
+                    let first = self.waiting(now.q).into_iter().next().filter(|_| popped);
+                    let expected = first.unwrap_or_else(|| self.shown(now.q));
+                    let signals = ["target_x", "target_y"];
+                    require(self.shown(&next.q) == expected, signals, || {
+                        format!("{expected:?}")
+                    })
+                },
+            )
+            .always(
+                "ready is high unless the queue is full, and available unless it is empty",
+                move |now| {
+                    let level = self.level(now.q);
+                    let right =
+                        now.w.ready == (level < most as u64) && now.w.available == (level > 0);
+                    require(right, ["ready", "available"], || format!("{level} wait"))
+                },
+            )
     }
 
     /// All fields of a target alike: none looks at another.

@@ -12,7 +12,6 @@
 //! Each of the two circuits counts only its own distance and rests while the other moves, so the
 //! sum is the whole path. The sum is sampled once per sampling time, so a circuit that computes
 //! with it in between sees a constant value.
-//! between sees a constant value.
 
 use crate::prelude::*;
 
@@ -81,7 +80,7 @@ impl Specified for CommandJoin {
     fn invariants(&self) -> Invariants<'_, Self> {
         let unused = 64 - self.line;
         Invariants::<Self>::new().step(
-            "a command is the sum of both ways, and stays until the next",
+            "take loads the sums of line and arc into the commands, which otherwise stay",
             move |now, next| {
                 let i = &now.i;
                 let sum = |line: i64, arc: i64| (line + arc) << unused >> unused;

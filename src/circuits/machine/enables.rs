@@ -103,7 +103,7 @@ impl Specified for Enables {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step(
-                "a counter begins anew after its own enable, and after no other",
+                "each counter restarts at 0 after its own enable, and otherwise counts up",
                 |now, next| {
                     let (p, w) = (&now.p, &now.w);
                     let counters = [
@@ -125,7 +125,7 @@ impl Specified for Enables {
                 },
             )
             .always(
-                "a led counter ends its period with the enable that leads it, and not before",
+                "ck_led is 0 with ck and all ones without, and sample_led likewise with sample",
                 |now| {
                     let led = [(now.w.ck, now.w.ck_led), (now.w.sample, now.w.sample_led)];
                     let never = (1 << self.width) - 1;

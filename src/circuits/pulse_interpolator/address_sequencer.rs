@@ -129,14 +129,14 @@ impl Specified for AddressSequencer {
         let ends = |q: &Reg<Value>| q.address == q.last;
         let taken = |i: &In<Value>, w: &Net<Value>| i.unit_rst && w.take;
         Invariants::<Self>::new()
-            .step("nothing changes but at RST", |now, next| {
+            .step("state and address change only at RST", |now, next| {
                 let kept = next.q.state == now.q.state && next.q.address == now.q.address;
                 require(now.i.unit_rst || kept, ["state", "address"], || {
                     "changed in mid-unit".into()
                 })
             })
             .always(
-                "a command is taken at RST, at once or at the end of the pattern",
+                "a command is taken at RST if pending_now is high, in IDLE, or at the last address",
                 move |now| {
                     let end = !running(now.q) || ends(now.q);
                     let due = now.i.unit_rst && now.i.pending && (now.i.pending_now || end);
@@ -145,35 +145,42 @@ impl Specified for AddressSequencer {
                     })
                 },
             )
-            .step("a pattern begins at its base", move |now, next| {
-                let begins = taken(now.i, now.w) && now.i.pending_run;
-                let there = running(&next.q)
-                    && next.q.address == now.i.pending_base
-                    && next.q.base == now.i.pending_base
-                    && next.q.last == now.i.pending_last
-                    && next.q.cyclic == now.i.pending_cyclic;
-                require(
-                    !begins || there,
-                    ["address", "base", "last", "cyclic"],
-                    || "another pattern".into(),
-                )
-            })
             .step(
-                "a stop command ends it and holds the address",
+                "a command with pending_run starts its pattern at pending_base",
+                move |now, next| {
+                    let begins = taken(now.i, now.w) && now.i.pending_run;
+                    let there = running(&next.q)
+                        && next.q.address == now.i.pending_base
+                        && next.q.base == now.i.pending_base
+                        && next.q.last == now.i.pending_last
+                        && next.q.cyclic == now.i.pending_cyclic;
+                    require(
+                        !begins || there,
+                        ["address", "base", "last", "cyclic"],
+                        || "another pattern".into(),
+                    )
+                },
+            )
+            .step(
+                "a command without pending_run stops the pattern and holds the address",
                 move |now, next| {
                     let stop = taken(now.i, now.w) && !now.i.pending_run;
                     let held = !running(&next.q) && next.q.address == now.q.address;
                     require(!stop || held, ["state", "address"], || "goes on".into())
                 },
             )
-            .step("a running pattern skips no address", move |now, next| {
-                let on = now.i.unit_rst && !taken(now.i, now.w) && running(now.q) && !ends(now.q);
-                let up = (now.q.address + 1) % (1 << self.width);
-                let right = running(&next.q) && next.q.address == up;
-                require(!on || right, ["address"], || next.q.address.to_string())
-            })
             .step(
-                "at its end a pattern starts again or holds",
+                "without a command, a running pattern advances by one address per RST",
+                move |now, next| {
+                    let on =
+                        now.i.unit_rst && !taken(now.i, now.w) && running(now.q) && !ends(now.q);
+                    let up = (now.q.address + 1) % (1 << self.width);
+                    let right = running(&next.q) && next.q.address == up;
+                    require(!on || right, ["address"], || next.q.address.to_string())
+                },
+            )
+            .step(
+                "after the last address, a cyclic pattern restarts and any other stops there",
                 move |now, next| {
                     let end = now.i.unit_rst && !taken(now.i, now.w) && running(now.q);
                     let good = match now.q.cyclic {
@@ -185,13 +192,16 @@ impl Specified for AddressSequencer {
                     })
                 },
             )
-            .step("idle holds the address", move |now, next| {
-                let idle = now.i.unit_rst && !taken(now.i, now.w) && !running(now.q);
-                let held = !running(&next.q) && next.q.address == now.q.address;
-                require(!idle || held, ["state", "address"], || "moves".into())
-            })
             .step(
-                "the memory reads the address to come, or goes blank",
+                "in IDLE, state and address stay until a command is taken",
+                move |now, next| {
+                    let idle = now.i.unit_rst && !taken(now.i, now.w) && !running(now.q);
+                    let held = !running(&next.q) && next.q.address == now.q.address;
+                    require(!idle || held, ["state", "address"], || "moves".into())
+                },
+            )
+            .step(
+                "RST reads the next address if a pattern runs next, and otherwise blanks",
                 move |now, next| {
                     let (read, blank) = (now.w.read, now.w.blank);
                     let one = (read ^ blank) == now.i.unit_rst && !(read && blank);

@@ -94,13 +94,13 @@ impl Specified for Axis {
                 let low = !now.i.unit_rst || !next.p.sync.q.step;
                 require(low, ["sync.step", "unit_rst"], || "high across RST".into())
             })
-            .step("dir changes only with a word read", |now, next| {
+            .step("dir changes only after a tick with read", |now, next| {
                 let kept = next.p.memory.q.direction == now.registers.p.memory.q.direction;
                 require(kept || now.i.read, ["dir", "read"], || {
                     "changed by itself".into()
                 })
             })
-            .always("the toggle and the flip-flop agree", |now| {
+            .always("generator.toggle equals sync.step", |now| {
                 let p = &now.registers.p;
                 let same = p.generator.q.toggle == p.sync.q.step;
                 require(same, ["generator.toggle", "sync.step"], || {

@@ -123,22 +123,22 @@ impl Circuit for CommandPort {
         let stays = q.pending & !(i.valid & i.now);
         vec![
             Property::step(
-                "a command given to a ready port, or with now, waits as it was given",
+                "a command is stored as given if ready or now is high",
                 &["pending", "pending_base", "pending_last"],
                 !accepted | (next.pending & given),
             ),
             Property::step(
-                "a waiting command stays until it is taken or replaced",
+                "a waiting command stays unchanged until it is taken or replaced",
                 &["pending", "pending_base", "pending_last"],
                 !stays | (kept & (next.pending ^ i.take)),
             ),
             Property::step(
-                "no command comes by itself",
+                "pending rises only after a tick with valid",
                 &["pending"],
                 q.pending | i.valid | !next.pending,
             ),
             Property::always(
-                "ready means that none waits",
+                "ready is high if and only if no command waits",
                 &["ready"],
                 w.ready ^ q.pending,
             ),

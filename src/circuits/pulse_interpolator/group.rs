@@ -215,7 +215,7 @@ impl Specified for Group {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step(
-                "T, address, state and words change only at RST",
+                "unit time, address, state and memory outputs change only at RST",
                 |now, next| {
                     let (p, after) = (&now.registers.p, &next.p);
                     let words = p.axes.iter().zip(&after.axes).all(|(now, next)| {
@@ -231,20 +231,23 @@ impl Specified for Group {
                     })
                 },
             )
-            .always("where the unit time stands decides every axis", |now| {
-                let p = &now.registers.p;
-                let elapsed = p.counter.q.count;
-                let right = p.axes.iter().all(|axis| {
-                    let (generator, step) = (&axis.p.generator.q, axis.p.sync.q.step);
-                    let n = axis.p.memory.q.half_period;
-                    let expected = pulse_generator::expected(n, elapsed);
-                    (generator.count, generator.toggle) == expected && step == expected.1
-                });
-                require(right, ["counter.count", "step_x"], || {
-                    format!("tick {elapsed} of the unit")
-                })
-            })
-            .always("an idle group has no pulses", |now| {
+            .always(
+                "each axis depends only on its half-period and the ticks since RST",
+                |now| {
+                    let p = &now.registers.p;
+                    let elapsed = p.counter.q.count;
+                    let right = p.axes.iter().all(|axis| {
+                        let (generator, step) = (&axis.p.generator.q, axis.p.sync.q.step);
+                        let n = axis.p.memory.q.half_period;
+                        let expected = pulse_generator::expected(n, elapsed);
+                        (generator.count, generator.toggle) == expected && step == expected.1
+                    });
+                    require(right, ["counter.count", "step_x"], || {
+                        format!("tick {elapsed} of the unit")
+                    })
+                },
+            )
+            .always("an idle group outputs no pulses", |now| {
                 let quiet = now
                     .registers
                     .p

@@ -187,7 +187,7 @@ impl Specified for PatternMemory {
         }
         Invariants::<Self>::new()
             .step(
-                "a read brings the word as it was before the edge",
+                "a read outputs the word that was stored before the edge",
                 |now, next| {
                     let read = output(&next.q) == word(now.q, now.i.address);
                     require(!now.i.read || read, ["half_period", "direction"], || {
@@ -196,7 +196,7 @@ impl Specified for PatternMemory {
                 },
             )
             .step(
-                "blank stops the pulses and keeps the direction",
+                "blank without read sets half_period to 0 and keeps direction",
                 |now, next| {
                     let blank = now.i.blank && !now.i.read;
                     let quiet = output(&next.q) == (0, now.q.direction);
@@ -205,14 +205,17 @@ impl Specified for PatternMemory {
                     })
                 },
             )
-            .step("without read or blank the output stays", |now, next| {
-                let held = now.i.read || now.i.blank || output(&next.q) == output(now.q);
-                require(held, ["half_period", "direction"], || {
-                    "changed by itself".into()
-                })
-            })
             .step(
-                "a word changes by a write to this axis and its address, and only so",
+                "without read and blank, half_period and direction keep their values",
+                |now, next| {
+                    let held = now.i.read || now.i.blank || output(&next.q) == output(now.q);
+                    require(held, ["half_period", "direction"], || {
+                        "changed by itself".into()
+                    })
+                },
+            )
+            .step(
+                "only a write to this axis changes a word, and only the word at write_address",
                 |now, next| {
                     let port = &now.i.port;
                     let written = port.write && port.write_axis == self.axis;

@@ -85,32 +85,32 @@ impl Circuit for PulseGenerator {
         let toggles = w.pulse ^ q.toggle;
         vec![
             Property::always(
-                "a half-period of 0 gives no pulse",
+                "pulse is low if half_period is 0",
                 &["half_period", "pulse"],
                 !(none & w.pulse),
             ),
             Property::step(
-                "RST clears the counter and the toggle",
+                "RST clears count and toggle",
                 &["count", "toggle", "unit_rst"],
                 !i.unit_rst | (next.count.is_zero() & !next.toggle),
             ),
             Property::step(
-                "the count stays below the half-period",
+                "count stays below half_period or becomes 0",
                 &["count", "half_period"],
                 next.count.below(i.half_period) | next.count.is_zero(),
             ),
             Property::step(
-                "the pulse signal toggles when the half-period is over, and only then",
+                "pulse toggles at the end of each half-period, and only there",
                 &["pulse", "toggle", "count"],
                 none | !(toggles ^ over),
             ),
             Property::step(
-                "between two RST the toggle follows the pulse signal",
+                "toggle takes the value of pulse, except at RST",
                 &["toggle", "pulse"],
                 i.unit_rst | !(next.toggle ^ w.pulse),
             ),
             Property::always(
-                "the count never reaches its greatest value",
+                "count never reaches its greatest value",
                 &["count"],
                 q.count.below(u64::MAX.cut(self.width)),
             ),

@@ -100,16 +100,19 @@ impl Circuit for PulseTrain {
 impl Specified for PulseTrain {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
-            .step("load takes the train and drops the old one", |now, next| {
-                let (i, q) = (now.i, &next.q);
-                let taken =
-                    (q.held, q.left, q.count, q.step) == (i.half_period, i.pulses, 0, false);
-                require(taken || !i.load, ["held", "left", "count", "step"], || {
-                    "something else".into()
-                })
-            })
             .step(
-                "the direction changes with a train that has pulses",
+                "load starts the new train and drops the old one",
+                |now, next| {
+                    let (i, q) = (now.i, &next.q);
+                    let taken =
+                        (q.held, q.left, q.count, q.step) == (i.half_period, i.pulses, 0, false);
+                    require(taken || !i.load, ["held", "left", "count", "step"], || {
+                        "something else".into()
+                    })
+                },
+            )
+            .step(
+                "a load of one or more pulses sets dir to down, and nothing else changes dir",
                 |now, next| {
                     let begins = now.i.load && now.i.pulses > 0;
                     let expected = if begins { now.i.down } else { now.q.dir };
@@ -117,7 +120,7 @@ impl Specified for PulseTrain {
                 },
             )
             .step(
-                "step toggles after a half-period, while pulses are left",
+                "while pulses are left, step toggles at the end of each half-period and only there",
                 |now, next| {
                     let (q, after) = (now.q, &next.q);
                     let due = q.left > 0 && q.held > 0 && q.count + 1 >= q.held;
@@ -127,16 +130,19 @@ impl Specified for PulseTrain {
                     })
                 },
             )
-            .step("a pulse is counted where it falls", |now, next| {
-                let (q, after) = (now.q, &next.q);
-                let fell = q.step && !after.step;
-                let right = after.left + u64::from(fell) == q.left;
-                require(right || now.i.load, ["left", "step"], || {
-                    format!("{} after {}", after.left, q.left)
-                })
-            })
             .step(
-                "spent says that nothing is left after this tick",
+                "left decreases by one at the end of each pulse",
+                |now, next| {
+                    let (q, after) = (now.q, &next.q);
+                    let fell = q.step && !after.step;
+                    let right = after.left + u64::from(fell) == q.left;
+                    require(right || now.i.load, ["left", "step"], || {
+                        format!("{} after {}", after.left, q.left)
+                    })
+                },
+            )
+            .step(
+                "spent is high if and only if no pulse is left after this tick",
                 |now, next| {
                     let right = now.w.spent == (next.q.left == 0);
                     require(right || now.i.load, ["spent", "left"], || {
@@ -145,7 +151,7 @@ impl Specified for PulseTrain {
                 },
             )
             .always(
-                "step is low with no pulse left, and the count below the half-period",
+                "step is low if no pulse is left, and count is 0 or below the half-period",
                 |now| {
                     let q = now.q;
                     let counts = q.count == 0 || q.count < q.held;

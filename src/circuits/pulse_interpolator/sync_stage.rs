@@ -44,12 +44,12 @@ impl Circuit for SyncStage {
         let (i, next) = (&now.i, &now.next.q);
         vec![
             Property::step(
-                "low in the tick after RST",
+                "step is low in the tick after RST",
                 &["step", "unit_rst"],
                 !i.unit_rst | !next.step,
             ),
             Property::step(
-                "passes the pulse signal",
+                "step is pulse one tick later, except in the tick after RST",
                 &["step", "pulse"],
                 i.unit_rst | !(next.step ^ i.pulse),
             ),

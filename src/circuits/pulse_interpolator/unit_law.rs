@@ -91,15 +91,18 @@ impl Circuit for UnitLaw {
 impl UnitLaw {
     /// The count law alone, which the literal variant violates with valid data.
     pub fn count_law(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new().always("the pulses of a unit time obey the count law", |now| {
-            let (n, period) = (now.q.held_half_period, now.q.held_period.max(1));
-            let law = counts::pulses(n as u32, period as u32);
-            let count = now.w.counted;
-            let right = !now.p.counter.w.enable || count == u64::from(law);
-            require(right, ["step", "counter.enable", "counted"], || {
-                format!("{count} pulses with n = {n} and T = {period}, the law says {law}")
-            })
-        })
+        Invariants::<Self>::new().always(
+            "the number of pulses in a unit time obeys the count law",
+            |now| {
+                let (n, period) = (now.q.held_half_period, now.q.held_period.max(1));
+                let law = counts::pulses(n as u32, period as u32);
+                let count = now.w.counted;
+                let right = !now.p.counter.w.enable || count == u64::from(law);
+                require(right, ["step", "counter.enable", "counted"], || {
+                    format!("{count} pulses with n = {n} and T = {period}, the law says {law}")
+                })
+            },
+        )
     }
 }
 
@@ -110,18 +113,21 @@ impl Specified for UnitLaw {
                 let low = now.p.counter.q.count != 0 || !now.w.step;
                 require(low, ["step", "counter.count"], || "high across RST".into())
             })
-            .always("where the unit time stands decides everything", |now| {
-                let (elapsed, n) = (now.p.counter.q.count, now.q.held_half_period);
-                let generator = &now.p.generator.q;
-                let expected = pulse_generator::expected(n, elapsed);
-                let same =
-                    (generator.count, generator.toggle) == expected && now.w.step == expected.1;
-                require(
-                    same,
-                    ["generator.count", "generator.toggle", "step"],
-                    || format!("tick {elapsed} of a unit time with n = {n}"),
-                )
-            })
+            .always(
+                "count, toggle and step depend only on the half-period and the ticks since RST",
+                |now| {
+                    let (elapsed, n) = (now.p.counter.q.count, now.q.held_half_period);
+                    let generator = &now.p.generator.q;
+                    let expected = pulse_generator::expected(n, elapsed);
+                    let same =
+                        (generator.count, generator.toggle) == expected && now.w.step == expected.1;
+                    require(
+                        same,
+                        ["generator.count", "generator.toggle", "step"],
+                        || format!("tick {elapsed} of a unit time with n = {n}"),
+                    )
+                },
+            )
             .always("a unit time has T ticks", |now| {
                 let last = now.p.counter.q.count + 1 == now.q.held_period.max(1);
                 require(

@@ -73,14 +73,14 @@ impl Circuit for UnitTimeRegister {
 impl Specified for UnitTimeRegister {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
-            .step("T in force changes only at RST", |now, next| {
+            .step("the active unit time changes only at RST", |now, next| {
                 let kept = now.i.unit_rst || next.q.active == now.q.active;
                 require(kept, ["active", "unit_rst"], || {
                     "changed in mid-unit".into()
                 })
             })
             .step(
-                "RST loads the pattern's T, or else what waits",
+                "RST loads take_period if take is high, otherwise shadow",
                 |now, next| {
                     let due = match now.i.take {
                         true => now.i.take_period,
@@ -92,12 +92,12 @@ impl Specified for UnitTimeRegister {
                     })
                 },
             )
-            .step("a write waits until the RST after it", |now, next| {
+            .step("a write puts period into shadow", |now, next| {
                 let waits = !now.i.write || next.q.shadow == now.i.period;
                 require(waits, ["shadow", "period"], || "a write is lost".into())
             })
             .step(
-                "without a write or a pattern the setting stays",
+                "without write and take, shadow keeps its value",
                 |now, next| {
                     let idle = !now.i.write && !now.i.take;
                     let kept = !idle || next.q.shadow == now.q.shadow;

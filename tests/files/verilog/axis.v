@@ -130,22 +130,22 @@ module pulse_generator (
         f_past_valid <= 1'b1;
 
     always @(posedge clk) begin
-        // A half-period of 0 gives no pulse.
+        // Pulse is low if half_period is 0.
         assert (!(half_period == 4'd0 && pulse));
-        // RST clears the counter and the toggle.
+        // RST clears count and toggle.
         if (f_past_valid && !$past(rst))
             assert (!$past(unit_rst) || (count == 4'd0 && !toggle));
-        // The count stays below the half-period.
+        // Count stays below half_period or becomes 0.
         if (f_past_valid && !$past(rst))
             assert (count < $past(half_period) || count == 4'd0);
-        // The pulse signal toggles when the half-period is over, and only then.
+        // Pulse toggles at the end of each half-period, and only there.
         if (f_past_valid && !$past(rst))
             assert ($past(half_period) == 4'd0 ||
                 !($past(pulse) ^ $past(toggle) ^ ($past(count) >= $past(half_period) - 4'd1)));
-        // Between two RST the toggle follows the pulse signal.
+        // Toggle takes the value of pulse, except at RST.
         if (f_past_valid && !$past(rst))
             assert ($past(unit_rst) || !(toggle ^ $past(pulse)));
-        // The count never reaches its greatest value.
+        // Count never reaches its greatest value.
         assert (count < 4'd15);
     end
 `endif
@@ -180,10 +180,10 @@ module sync_stage (
         f_past_valid <= 1'b1;
 
     always @(posedge clk) begin
-        // Low in the tick after RST.
+        // Step is low in the tick after RST.
         if (f_past_valid && !$past(rst))
             assert (!$past(unit_rst) || !step);
-        // Passes the pulse signal.
+        // Step is pulse one tick later, except in the tick after RST.
         if (f_past_valid && !$past(rst))
             assert ($past(unit_rst) || !(step ^ $past(pulse)));
     end

@@ -140,7 +140,7 @@ impl Specified for PositionControl {
         let limit = i128::from(self.limit());
         Invariants::<Self>::new()
             .always(
-                "the deviation is the way to go, the short way round",
+                "deviation is the shorter distance from feedback to command",
                 move |now| {
                     let deviation = i128::from(now.w.deviation);
                     let way = i128::from(now.i.command) - i128::from(now.i.feedback);
@@ -148,13 +148,16 @@ impl Specified for PositionControl {
                     require(right, ["deviation"], || format!("{deviation} for {way}"))
                 },
             )
-            .always("in position is at most the window away", |now| {
-                let away = i128::from(now.w.deviation).abs();
-                let inside = away <= i128::from(now.i.window);
-                require(now.w.in_position == inside, ["in_position"], || {
-                    format!("{away} away")
-                })
-            })
+            .always(
+                "in_position is high if and only if deviation is at most window",
+                |now| {
+                    let away = i128::from(now.w.deviation).abs();
+                    let inside = away <= i128::from(now.i.window);
+                    require(now.w.in_position == inside, ["in_position"], || {
+                        format!("{away} away")
+                    })
+                },
+            )
             .step(
                 "a scan loads the nearest reference within the limits, halves away from zero",
                 move |now, next| {
@@ -171,19 +174,25 @@ impl Specified for PositionControl {
                     })
                 },
             )
-            .step("between scans the reference holds", |now, next| {
-                let q = now.q;
-                let same = next.q.speed_ref == q.speed_ref && next.q.saturated == q.saturated;
-                require(now.i.scan || same, ["speed_ref", "scan"], || {
-                    "changed by itself".into()
-                })
-            })
-            .always("saturated is at the limit", move |now| {
-                let at_limit = i128::from(now.q.speed_ref).abs() == limit;
-                require(now.q.saturated == at_limit, ["saturated"], || {
-                    format!("at {}", now.q.speed_ref)
-                })
-            })
+            .step(
+                "between scans, speed_ref and saturated keep their values",
+                |now, next| {
+                    let q = now.q;
+                    let same = next.q.speed_ref == q.speed_ref && next.q.saturated == q.saturated;
+                    require(now.i.scan || same, ["speed_ref", "scan"], || {
+                        "changed by itself".into()
+                    })
+                },
+            )
+            .always(
+                "saturated is high if and only if speed_ref is at its limit",
+                move |now| {
+                    let at_limit = i128::from(now.q.speed_ref).abs() == limit;
+                    require(now.q.saturated == at_limit, ["saturated"], || {
+                        format!("at {}", now.q.speed_ref)
+                    })
+                },
+            )
     }
 }
 
