@@ -351,10 +351,6 @@ impl Circuit for Sequencer {
 }
 
 impl Specified for Sequencer {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::of(self)
-    }
-
     /// Words are tried with the strobes low, and strobes with the words zero: no equation has both.
     fn applies(&self, i: &In<Value>) -> bool {
         let strobes = [

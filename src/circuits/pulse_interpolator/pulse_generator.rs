@@ -127,8 +127,4 @@ pub(super) fn expected(half_period: u64, elapsed: u64) -> (u64, bool) {
     }
 }
 
-impl Specified for PulseGenerator {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::of(self)
-    }
-}
+impl Specified for PulseGenerator {}

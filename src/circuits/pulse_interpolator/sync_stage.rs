@@ -57,8 +57,4 @@ impl Circuit for SyncStage {
     }
 }
 
-impl Specified for SyncStage {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::of(self)
-    }
-}
+impl Specified for SyncStage {}
