@@ -130,22 +130,22 @@ module pulse_generator (
         f_past_valid <= 1'b1;
 
     always @(posedge clk) begin
-        // Pulse is low if half_period is 0.
+        // pulse is low if half_period is 0.
         assert (!(half_period == 4'd0 && pulse));
         // RST clears count and toggle.
         if (f_past_valid && !$past(rst))
             assert (!$past(unit_rst) || (count == 4'd0 && !toggle));
-        // Count stays below half_period or becomes 0.
+        // count stays below half_period or becomes 0.
         if (f_past_valid && !$past(rst))
             assert (count < $past(half_period) || count == 4'd0);
-        // Pulse toggles at the end of each half-period, and only there.
+        // pulse toggles at the end of each half-period, and only there.
         if (f_past_valid && !$past(rst))
             assert ($past(half_period) == 4'd0 ||
                 !($past(pulse) ^ $past(toggle) ^ ($past(count) >= $past(half_period) - 4'd1)));
-        // Toggle takes the value of pulse, except at RST.
+        // toggle takes the value of pulse, except at RST.
         if (f_past_valid && !$past(rst))
             assert ($past(unit_rst) || !(toggle ^ $past(pulse)));
-        // Count never reaches its greatest value.
+        // count never reaches its greatest value.
         assert (count < 4'd15);
     end
 `endif
@@ -180,10 +180,10 @@ module sync_stage (
         f_past_valid <= 1'b1;
 
     always @(posedge clk) begin
-        // Step is low in the tick after RST.
+        // step is low in the tick after RST.
         if (f_past_valid && !$past(rst))
             assert (!$past(unit_rst) || !step);
-        // Step is pulse one tick later, except in the tick after RST.
+        // step is pulse one tick later, except in the tick after RST.
         if (f_past_valid && !$past(rst))
             assert ($past(unit_rst) || !(step ^ $past(pulse)));
     end

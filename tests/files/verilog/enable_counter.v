@@ -30,7 +30,7 @@ module enable_counter (
         f_past_valid <= 1'b1;
 
     always @(posedge clk) begin
-        // Enable is high in the last tick of a period, and only there.
+        // enable is high in the last tick of a period, and only there.
         assert (!(enable ^ (count >= period - 4'd1 || period == 4'd0)));
         // A period begins after enable.
         if (f_past_valid && !$past(rst))
