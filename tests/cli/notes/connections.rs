@@ -92,8 +92,11 @@ fn grouped(
         let names = together.iter().map(|index| code(driven[*index].0));
         let names = names.collect::<Vec<_>>().join(", ");
         rows.push(match source(index).filter(|_| together.len() > 1) {
-            Some("") => (names, "the ports in of these names".to_owned()),
-            Some(source) => (names, format!("these of {}", code(source))),
+            Some("") => (names, "input ports of the same names".to_owned()),
+            Some(source) => (
+                names,
+                format!("signals of the same names in {}", code(source)),
+            ),
             None => (names, said.clone()),
         });
     }
@@ -390,14 +393,14 @@ fn ports_of_the_same_names_share_a_row() {
     assert_eq!(
         rows(["load", "memory.data", "step"]),
         [
-            row("`load`, `step`", "the ports in of these names"),
+            row("`load`, `step`", "input ports of the same names"),
             row("`data`", "`memory.data`")
         ]
     );
     assert_eq!(
         rows(["memory.load", "memory.data", "!step"]),
         [
-            row("`load`, `data`", "these of `memory`"),
+            row("`load`, `data`", "signals of the same names in `memory`"),
             row("`step`", "`!step`")
         ]
     );

@@ -3,7 +3,9 @@
 //!
 //! `UPDATE_NOTES=1 cargo test --release --test cli notes` writes them anew.
 
-use super::{Note, axes, blends, connections, expect_none, miscounts, notes, rotations, states};
+use super::{
+    Note, axes, blends, connections, expect_none, miscounts, notes, rotations, small, states,
+};
 use motion_rtl::circuits::pulse_interpolator::counts;
 use motion_rtl::hdl::{Declaration, MemoryDeclaration};
 use motion_rtl::netlist::{Format, Kind, Role};
@@ -21,12 +23,13 @@ const LONG: u64 = 1_000_000;
 const BEGIN: &str = "<!-- begin generated: ";
 const END: &str = "<!-- end generated -->";
 
-/// The text between the markers for what the first of them names, where `stands` is what it was;
-/// `long`: with proofs that take long.
-fn make(what: &str, stands: &str, long: bool) -> Result<String, String> {
+/// The text between the markers for what the first of them names, in a note in which `stands` is
+/// what it was; `long`: with proofs that take long.
+fn make(what: &str, note: &str, stands: &str, long: bool) -> Result<String, String> {
     let (kind, name) = what.split_once(' ').unwrap_or((what, ""));
     match (kind, find(name)) {
         ("signals", Some(entry)) => Ok(signals(entry)),
+        ("charts", Some(entry)) => small::sentence(entry, note),
         ("connections", Some(entry)) => Ok(connections::table(entry)),
         ("blocks", None) => Ok(blocks(name)),
         ("proofs", None) => Ok(proofs(name, if long { "" } else { stands })),
@@ -67,7 +70,8 @@ fn regenerate(text: &str, long: bool) -> Result<String, String> {
                     None => return Err(format!("{number}: `{what}` has no `{END}`")),
                 }
             }
-            fresh += &make(what, &stands, long).map_err(|error| format!("{number}: {error}"))?;
+            fresh +=
+                &make(what, text, &stands, long).map_err(|error| format!("{number}: {error}"))?;
             fresh += END;
             fresh.push('\n');
         }

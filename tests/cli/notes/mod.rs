@@ -11,6 +11,7 @@ mod glossary;
 mod links;
 mod miscounts;
 mod rotations;
+mod small;
 mod states;
 
 use std::fs;

@@ -137,13 +137,13 @@ settings! {
     pub struct Step {
         /// Sx: position to stop at, counted from where `targets` says.
         pub target [required]: i64 = 0, in TARGET_RANGE_COUNTS;
-        /// Speed on the way.
+        /// Speed of the positioning.
         pub speed_counts_per_s [required]: u32 = SPEED_UNIT_COUNTS_PER_S,
             within SPEED_RANGE_COUNTS_PER_S, "a multiple of 10 that the detector follows";
         /// Δt: lead time to begin with; 0 for none.
         pub lead_ms: f64 = 0.0, within LEAD_RANGE_MS, "whole CKs that a code has";
         /// Lead time that is set when the load changes, before the next positioning; without it the
-        /// step goes on with what it has.
+        /// step keeps its lead time.
         pub load_lead_ms: Option<f64> = None, within LEAD_RANGE_MS, "whole CKs that a code has";
     }
 }
@@ -183,10 +183,11 @@ settings! {
         /// Excess of an absolute encoder's sampling clock over CK.
         pub sampling_clock_ppm: f64 = 0.0, in SAMPLING_RANGE_PPM,
             "with detector = \"absolute\" alone";
-        /// Source of the lead: the way of the last Δt, or, as in Fig. 7, the measured speed times a
-        /// parameter, or a memory by speed. A log is predicted with `time` or `speed`.
+        /// Source of the lead: the distance of the last Δt; or, as in Fig. 7, the measured speed
+        /// times a parameter, or a memory addressed by the speed. A log is predicted with `time` or
+        /// `speed`.
         pub lead: LeadBy = LeadBy::default();
-        /// Form of the lead of a time, of those that are equal.
+        /// Form in which the lead is computed from the lead time; all forms give the same lead.
         pub form: LeadForm = LeadForm::default();
         /// Place of the lead: on the position, on the target, or half on each.
         pub placement: Placement = Placement::default();
