@@ -58,10 +58,10 @@ fn the_literal_variant_breaks_and_shows_how() {
         .code(1)
         .stdout(predicate::str::contains("BROKEN"))
         .stderr(predicate::str::starts_with(
-            "error: unit_law: tick 2: where the unit time stands",
+            "error: unit_law: tick 2: count, toggle and step depend only",
         ))
         .stderr(predicate::str::contains(
-            "found/here/unit_law_where_the_unit_time_stands",
+            "found/here/unit_law_count__toggle_and_step_depend_only",
         ));
     let mut endings: Vec<_> = std::fs::read_dir(bench.path("found/here"))
         .unwrap()
