@@ -1,7 +1,7 @@
 //! `plan`: how a circuit is run, under random inputs; and how that of a job is.
 
 use super::chosen::Chosen;
-use super::{Failure, print};
+use super::{Failure, to_standard_output};
 use clap::Args;
 use motion_rtl::check::Stimulus;
 use motion_rtl::engine::{Engine, Inputs, Watch, report};
@@ -42,7 +42,7 @@ pub fn plan(arguments: &Arguments) -> Result<(), Failure> {
         engine.settle();
         engine.edge();
     }
-    print(&text(&model, &engine, arguments.ticks))
+    to_standard_output(&text(&model, &engine, arguments.ticks))
 }
 
 /// The plan of a job's circuit, and what of it its inputs have woken.
@@ -62,7 +62,7 @@ fn counting(model: &Elaborated) -> Engine {
 }
 
 fn text(model: &Elaborated, engine: &Engine, ticks: u64) -> String {
-    let leaves = &model.declarations().leaves;
+    let leaves = &model.outline().leaves;
     let name = |leaf: usize| {
         let path = leaves[leaf].path();
         let below = path.split_once('.').map(|(_, below)| below.to_owned());

@@ -2,6 +2,7 @@
 
 use super::Circuit;
 use crate::netlist::{Field, Role, Shape, unsigned};
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// Position of a walk: the scopes around the next leaf, and the part of the circuit that the leaf
@@ -196,27 +197,45 @@ impl Declarations {
     /// words of its memories. Names start below the circuit's scope. Signals in a bundle are
     /// included.
     pub fn own(&self) -> Vec<(usize, String)> {
+        let parts = self.parts();
         let name = |(index, leaf): (usize, &Declaration)| match &leaf.scopes[..] {
             [_] => Some((index, leaf.name.clone())),
-            [_, bundle] if self.is_bundled(index) => {
+            [_, bundle] if !parts.contains(bundle.as_str()) => {
                 Some((index, format!("{bundle}.{}", leaf.name)))
             }
             _ => None,
         };
-        self.leaves.iter().enumerate().filter_map(name).collect()
+        self.signals().filter_map(name).collect()
     }
 
-    /// True if a signal is in a bundle: a struct that is neither a memory nor a part. Beside the
-    /// signals of a part there are signals of other roles.
-    fn is_bundled(&self, index: usize) -> bool {
-        let leaf = &self.leaves[index];
-        let is_word = |memory: &MemoryDeclaration| {
-            (memory.first..memory.first + memory.words).contains(&index)
-        };
-        let of_a_block = |other: &Declaration| {
-            other.role != leaf.role && other.scopes.starts_with(&leaf.scopes[..])
-        };
-        !self.memories.iter().any(is_word) && !self.leaves.iter().any(of_a_block)
+    /// Returns the scopes in the circuit that are parts. A bundle holds signals of one role, and a
+    /// part has others beside them.
+    fn parts(&self) -> HashSet<&str> {
+        let mut roles = HashMap::new();
+        let inner = self.signals().filter_map(|(_, leaf)| {
+            let scope = leaf.scopes.get(1)?;
+            Some((scope.as_str(), leaf.role))
+        });
+        let words = self.memories.iter().filter_map(|memory| {
+            let scope = memory.scopes.get(1)?;
+            Some((scope.as_str(), Role::Register))
+        });
+        let other = |(scope, role)| (*roles.entry(scope).or_insert(role) != role).then_some(scope);
+        inner.chain(words).filter_map(other).collect()
+    }
+
+    /// Returns the leaves with their indices, without the words of memories.
+    pub(crate) fn signals(&self) -> impl Iterator<Item = (usize, &Declaration)> {
+        let mut memories = self.memories.iter().peekable();
+        let mut index = 0;
+        std::iter::from_fn(move || {
+            while let Some(memory) = memories.next_if(|memory| memory.first == index) {
+                index += memory.words;
+            }
+            let leaf = self.leaves.get(index)?;
+            index += 1;
+            Some((index - 1, leaf))
+        })
     }
 }
 

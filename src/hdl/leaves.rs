@@ -2,7 +2,7 @@
 
 use super::Path;
 use super::build::{self, builder, dotted, flat, masked, mistake, node, signal};
-use super::memory::Contents;
+use super::memory::{Contents, MOST_ADDRESS};
 use super::record::{Cells, MemoryShape, Source};
 use crate::netlist::{Field, Id, Memory, Node, Port, Register, Role, Shape};
 
@@ -89,7 +89,7 @@ impl Source for Leaves {
     ) -> Cells {
         let (name, path) = self.names(field);
         let contents = contents();
-        let most = 1 << 24;
+        let most = 1 << MOST_ADDRESS;
         if !(1..=64).contains(&shape.width) || !(1..=most).contains(&shape.words) {
             unmade(format!(
                 "memory `{path}` has {} words of {}; there are 1 to {most} words of 1 to 64 bits",

@@ -8,6 +8,10 @@ use crate::netlist::{Field, Node, Site, unsigned};
 use bitvec::prelude::*;
 use std::sync::Arc;
 
+/// Greatest width of a memory's address in bits. Every word is a signal with a name of its own: millions
+/// of them take gigabytes.
+pub(crate) const MOST_ADDRESS: usize = 16;
+
 /// A memory with one write port, before the edge.
 ///
 /// This is a handle: [`write`](Self::write) takes it by value, so the new contents cannot be read
@@ -316,11 +320,11 @@ struct Unfit {
 }
 
 impl Image {
-    /// Returns 2^`address` words of `width` bits, all zero. An address has at most 24 bits, a word
+    /// Returns 2^`address` words of `width` bits, all zero. An address has at most 16 bits, a word
     /// 1 to 64. Other sizes give an image without words, which no memory accepts.
     pub fn new(address: usize, width: usize) -> Self {
         let words = match (address, width) {
-            (0..=24, 1..=64) => 1 << address,
+            (0..=MOST_ADDRESS, 1..=64) => 1 << address,
             _ => 0,
         };
         Image {

@@ -137,7 +137,7 @@ impl Elaborated {
     }
 
     /// Returns the signals in the order of the leaves; power-on values are left at 0.
-    pub(crate) fn outline(&self) -> &Declarations {
+    pub fn outline(&self) -> &Declarations {
         self.outline.get_or_init(|| Arc::new((self.declare)()))
     }
 

@@ -156,7 +156,7 @@ struct Paths(HashMap<String, String>);
 
 impl Paths {
     fn of(declarations: &Declarations) -> Self {
-        let leaves = declarations.leaves.iter().filter_map(|leaf| {
+        let leaves = declarations.signals().filter_map(|(_, leaf)| {
             let path = leaf.path();
             let (_, below) = path.split_once('.')?;
             Some((below.replace('.', "_"), below.to_owned()))

@@ -5,9 +5,6 @@ use crate::registry::entry::{Base, Entry};
 use crate::registry::keys::{MOST, changed, elaborate, read, table};
 use crate::registry::{CATALOGUE, Pair};
 
-/// Words that a memory has at most, as a power of two.
-const ADDRESS: i64 = 24;
-
 /// Sizes of the full circuit, and those that only the small one has.
 fn sizes(entry: &Entry) -> Vec<(Base, String, i64)> {
     let of = |base| {
@@ -38,8 +35,8 @@ const QUICK: i64 = 256;
 /// The ends of a size's range that do not elaborate, and neighbours outside of it that do.
 fn faults(entry: &Entry, base: Base, key: &str) -> Vec<String> {
     let (least, most) = of(entry.name, key).expect("a size has a range");
-    // A memory with that many words takes minutes, as do thousands of parts.
-    let is_slow = (ADDRESS - 8..=ADDRESS).contains(&most) || most > QUICK;
+    // Thousands of parts take minutes.
+    let is_slow = most > QUICK;
     let ends = [
         (least - 1, false),
         (least, true),
@@ -88,4 +85,39 @@ fn every_number_of_things_has_a_range_of_its_own() {
             assert!(of(entry.name, &key).is_some(), "{}: {key}", entry.name);
         }
     }
+}
+
+/// Every word of a memory is a signal with a name. Of the circuits with the largest memories, all
+/// addresses and numbers of axes are at their most.
+#[test]
+fn memories_hold_65536_words_and_no_circuit_millions() {
+    const TOTAL: usize = (16 * 2) << 16;
+    for (name, words) in [
+        ("pattern_memory", 2 << 16),
+        ("compensator", 3 << 16),
+        ("pulse_interpolator", (8 * 2) << 16),
+        ("pulse_interpolator_groups", TOTAL),
+        ("machine", 8 << 16),
+    ] {
+        let entry = crate::registry::find(name).expect("it is there");
+        let ends = ["address", "axes", "records", "segment", "step"];
+        let sizes = sizes(entry).into_iter();
+        let sizes = sizes.filter(|(_, key, _)| ends.iter().any(|end| key.ends_with(end)));
+        let largest = sizes.fold(table(entry, Base::Full), |table, (_, key, _)| {
+            let (_, most) = of(name, &key).expect("a size has a range");
+            changed(entry, table, &Pair::new(key, most))
+        });
+        let made = read(entry, &largest).expect("sizes of its own");
+        elaborate(&made).expect("within their ranges");
+        let memories = made.model.outline().memories;
+        assert!(memories.iter().all(|memory| memory.words <= 1 << 16));
+        let all: usize = memories.iter().map(|memory| memory.words).sum();
+        assert!((words..=TOTAL).contains(&all), "{name}: {all}");
+    }
+    let memory = crate::registry::find("pattern_memory").expect("it is there");
+    let refused = elaborates(memory, Base::Full, "address", 17).unwrap_err();
+    assert!(
+        refused.contains("has 131072 words of 16 bits; there are 1 to 65536 words of 1 to 64 bits"),
+        "{refused}"
+    );
 }
