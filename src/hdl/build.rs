@@ -192,7 +192,7 @@ pub(super) fn fits(value: i128, shape: Shape) -> Result<(), String> {
     match (least..=greatest).contains(&value) {
         true => Ok(()),
         false => Err(format!(
-            "{value} does not fit {}; allowed are {least} to {greatest}",
+            "{value} does not fit {}: {least} to {greatest}",
             bits(shape.width)
         )),
     }

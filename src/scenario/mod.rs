@@ -18,7 +18,7 @@ pub use run::{Keys, Run, Settings};
 
 use crate::input::{DRAWINGS, Kind, POSITION_LOGS};
 use crate::jobs::{arc_generator, lead_angle, linear_interpolator, machine, trajectory_controller};
-use crate::settings::{Key, choices, defaults};
+use crate::settings::{Defaults, Key, choices, defaults};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -175,10 +175,10 @@ impl Runnable {
 
     /// Keys of its scenarios, and the defaults of those that have one.
     #[must_use]
-    pub fn keys(self) -> (Vec<&'static Key>, toml::Table) {
-        fn of<S: Settings + serde::Serialize>() -> (Vec<&'static Key>, toml::Table) {
+    pub fn keys(self) -> (Vec<&'static Key>, Defaults) {
+        fn of<S: Settings + serde::Serialize>() -> (Vec<&'static Key>, Defaults) {
             let mut values = defaults::<Run>();
-            values.extend(defaults::<S>());
+            values.0.extend(defaults::<S>().0);
             (Keys::<S>::all(), values)
         }
         match self {

@@ -16,7 +16,7 @@ settings! {
         pub input: Option<PathBuf> = None;
         /// Zeros and reference points of a part program, and its subroutines.
         pub program: Program = Program::default();
-        /// Plays what the circuit is compared with too, as `run --beside` does.
+        /// Also runs the systems with which the circuit is compared, as `run --beside` does.
         pub beside: bool = false;
         /// Most ticks in the waves, unless `--from` and `--to` ask for others.
         pub vcd_ticks: u64 = 1_000_000, in 1..=i64::MAX as u64;

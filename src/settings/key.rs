@@ -51,8 +51,13 @@ pub enum Shape {
     /// Three coordinates, or four with a fourth axis.
     Point,
     /// Table with keys of its own.
-    Table(&'static [&'static [Key]], fn() -> toml::Table),
+    Table(&'static [&'static [Key]], fn() -> Defaults),
 }
+
+/// Values of the keys of a table where they are not given; a key without one is left out.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+#[serde(transparent)]
+pub struct Defaults(pub(crate) toml::Table);
 
 /// A type that settings have.
 pub trait Value: Sized {

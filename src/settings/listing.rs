@@ -1,6 +1,7 @@
 //! Lists of keys for people.
 
-use super::key::{Key, Shape};
+use super::key::{Defaults, Key, Shape};
+use toml::{Table, Value};
 
 /// A key as text.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
@@ -21,20 +22,20 @@ pub struct Row {
 
 /// Lists keys, those of tables behind the table's own.
 #[must_use]
-pub fn rows(keys: &[&'static Key], defaults: &toml::Table) -> Vec<Row> {
+pub fn rows(keys: &[&'static Key], defaults: &Defaults) -> Vec<Row> {
     let mut rows = Vec::new();
-    add("", keys, defaults, &mut rows);
+    add("", keys, &defaults.0, &mut rows);
     rows
 }
 
-fn add(table: &str, keys: &[&'static Key], defaults: &toml::Table, rows: &mut Vec<Row>) {
+fn add(table: &str, keys: &[&'static Key], defaults: &Table, rows: &mut Vec<Row>) {
     for key in keys {
         let name = format!("{table}{}", key.name);
         let default = match (key.required, defaults.get(key.name)) {
             (true, _) => "required".to_owned(),
             (_, None) => "none".to_owned(),
-            (_, Some(toml::Value::Array(list))) if list.is_empty() => "none".to_owned(),
-            (_, Some(toml::Value::Table(table))) if initial(key.shape).as_ref() == Some(table) => {
+            (_, Some(Value::Array(list))) if list.is_empty() => "none".to_owned(),
+            (_, Some(Value::Table(table))) if initial(key.shape).as_ref() == Some(table) => {
                 "those of its keys".to_owned()
             }
             (_, Some(value)) => value.to_string(),
@@ -51,15 +52,15 @@ fn add(table: &str, keys: &[&'static Key], defaults: &toml::Table, rows: &mut Ve
             key.shape
         {
             let keys: Vec<_> = keys.iter().copied().flatten().collect();
-            add(&format!("{name}."), &keys, &defaults(), rows);
+            add(&format!("{name}."), &keys, &defaults().0, rows);
         }
     }
 }
 
 /// The defaults of a table's keys.
-fn initial(shape: Shape) -> Option<toml::Table> {
+fn initial(shape: Shape) -> Option<Table> {
     match shape {
-        Shape::Table(_, defaults) => Some(defaults()),
+        Shape::Table(_, defaults) => Some(defaults().0),
         _ => None,
     }
 }

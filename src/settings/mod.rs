@@ -6,7 +6,7 @@ mod listing;
 mod renamed;
 mod table;
 
-pub use key::{Key, Shape, Value};
+pub use key::{Defaults, Key, Shape, Value};
 pub(crate) use key::{choices, names};
 pub use listing::{Row, rows};
 pub(crate) use listing::{allowed, find, kind};
@@ -21,7 +21,7 @@ use std::ops::RangeInclusive;
 mod pair;
 
 pub use pair::{Pair, PairError};
-pub(crate) use pair::{key_value, value};
+pub(crate) use pair::{key_value, unread, value};
 
 /// Clocks that are accepted, in Hz.
 pub const CLOCK_RANGE_HZ: RangeInclusive<u64> = 1..=10_000_000_000;

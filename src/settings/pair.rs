@@ -1,6 +1,7 @@
 //! Keys with values, as `--set` and timing charts give them.
 
 use std::fmt;
+use std::num::IntErrorKind;
 use std::str::FromStr;
 use toml::{Table, Value};
 
@@ -23,6 +24,25 @@ pub(crate) fn value(text: &str) -> Value {
         .filter(|table| table.len() == 1)
         .and_then(|mut table| table.remove("x"))
         .unwrap_or_else(|| Value::String(text.to_owned()))
+}
+
+/// Returns the problem of a number that TOML does not hold, or of a list or table that is no TOML:
+/// [`value`] takes these as text.
+pub(crate) fn unread(text: &str) -> Option<String> {
+    if text.starts_with(['[', '{']) {
+        let error = format!("x = {text}").parse::<Table>().err()?;
+        return Some(match error.message() {
+            message if message.ends_with(" as i128") || message.contains(" as i128, ") => {
+                format!("is {text}, with a number that is too large")
+            }
+            message => format!("is {text}: {message}"),
+        });
+    }
+    match text.replace('_', "").parse::<i64>().err()?.kind() {
+        IntErrorKind::PosOverflow => Some(format!("is {text}: too large")),
+        IntErrorKind::NegOverflow => Some(format!("is {text}: too small")),
+        _ => None,
+    }
 }
 
 /// A key of a circuit and its value as TOML; a bare word is a string.

@@ -1,7 +1,7 @@
 //! Structs of settings that read themselves, written once: type, default, range and meaning of each
 //! field.
 
-use super::key::{Key, Read, Value};
+use super::key::{Defaults, Key, Read, Value};
 use super::renamed::renamed;
 use super::{Place, SettingError, within};
 use crate::nearest::{self, nearest};
@@ -223,9 +223,9 @@ pub(crate) fn has<T: Table>(key: &str) -> bool {
     T::KEYS.iter().copied().flatten().any(|own| own.name == key)
 }
 
-/// Returns the defaults of a struct; a key without one is left out.
-pub(crate) fn defaults<T: Table + serde::Serialize>() -> toml::Table {
-    toml::Table::try_from(T::initial()).unwrap_or_default()
+/// Returns the defaults of a struct.
+pub(crate) fn defaults<T: Table + serde::Serialize>() -> Defaults {
+    Defaults(toml::Table::try_from(T::initial()).unwrap_or_default())
 }
 
 /// Reads the next value of a map.
@@ -271,7 +271,9 @@ pub(crate) fn unknown<'a>(
 ) -> String {
     if let Some(new) = renamed(key).filter(|new| names.clone().any(|name| name == new.name)) {
         let (name, unit, factor) = (new.name, new.unit, new.factor);
-        return format!("is {name}, in {unit}: {factor} times the number{ALLOWED}{name}");
+        return format!(
+            "the key is called {name}, in {unit}: {factor} times the number{ALLOWED}{name}"
+        );
     }
     // A letter or two stand in too many names.
     let part = || {

@@ -158,7 +158,7 @@ fn keys_are_printed_with_type_unit_default_range_and_meaning() {
     );
     refused(
         &["keys", "compensator", "--json-schema"],
-        "NAME: no job is called compensator; allowed: pulse_interpolator, linear_interpolator, ",
+        "NAME: compensator is a circuit, whose keys stand in no file; allowed: a job, for a schema of its scenarios: pulse_interpolator, linear_interpolator, ",
     );
 }
 

@@ -287,7 +287,7 @@ fn bad_patterns_are_refused() {
     bench.write("s.toml", format!("{ONE}scale = \"2\"\n"));
     bench.refuse(
         &["run", "s.toml"],
-        "s.toml:5: pattern 0: scale: unit 0, x: scaled half-period 80000: allowed are 1 to 65535; \
+        "s.toml:5: pattern 0: scale: unit 0, x: scaled half-period 80000 is not from 1 to 65535; \
          allowed: a smaller ratio",
     );
     bench.write("t.csv", rows(2));

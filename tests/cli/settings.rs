@@ -66,7 +66,9 @@ fn bad_overrides_are_refused() {
     let range = |text: &str| format!("is {text}");
     let cases = [
         ("clock_hz", format!("clock_hz: no '='; {KEY_VALUE}")),
-        ("", format!(": no '='; {KEY_VALUE}")),
+        ("", format!("\"\": no '='; {KEY_VALUE}")),
+        ("clock_hz=18446744073709551616", format!("clock_hz: is 18446744073709551616: too large; {WHOLE}")),
+        ("clock_hz=-9223372036854775809", format!("clock_hz: is -9223372036854775809: too small; {WHOLE}")),
         ("=3", format!("=3: no key; {KEY_VALUE}")),
         ("clock_mhz=1", format!("clock_mhz: unknown key; did you mean clock_hz?; allowed: {KEYS}")),
         ("a.b.c.d=1", format!("a: unknown key; allowed: {KEYS}")),

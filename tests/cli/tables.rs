@@ -221,7 +221,7 @@ fn bad_ratios_are_refused() {
             "--scale",
             "2",
         ],
-        "--scale: unit 1, x: scaled half-period 131070: allowed are 1 to 65535; allowed: a \
+        "--scale: unit 1, x: scaled half-period 131070 is not from 1 to 65535; allowed: a \
          smaller ratio",
     );
 }

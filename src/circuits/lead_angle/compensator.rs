@@ -44,7 +44,7 @@ pub struct Compensator {
     pub lead_from: LeadFrom,
     /// Variants of the other circuits.
     pub variant: Variant,
-    /// 25: the times of its steps at power-on, in CKs.
+    /// Times of the steps at power-on, in CKs: the contents of 25.
     pub rom: Image,
 }
 

@@ -25,7 +25,7 @@ pub struct TimeData {
     pub step: usize,
     /// Width of a time.
     pub time: usize,
-    /// 25: the times at power-on, by step; steps that it has not begin without a lead.
+    /// Times at power-on, by step: the contents of 25. A step without a time begins without a lead.
     pub rom: Image,
 }
 

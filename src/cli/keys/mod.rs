@@ -2,7 +2,7 @@
 
 pub mod schema;
 
-use super::{Failure, json, print};
+use super::{Failure, json, named, to_standard_output};
 use clap::Args;
 use motion_rtl::nearest::did_you_mean;
 use motion_rtl::registry::{self, CATALOGUE, Entry};
@@ -52,7 +52,7 @@ pub fn keys(arguments: &Arguments) -> Result<(), Failure> {
         let names = Names { jobs, circuits };
         return match arguments.json {
             true => json::print(&names),
-            false => print(&text),
+            false => to_standard_output(&text),
         };
     };
     let job = Runnable::ALL.into_iter().find(|job| job.name() == name);
@@ -69,9 +69,15 @@ pub fn keys(arguments: &Arguments) -> Result<(), Failure> {
         };
         return Err(Failure::Argument {
             field: "NAME",
-            problem: format!("no {kind} is called {name}{near}"),
+            problem: match registry::find(name) {
+                Some(_) => format!("{name} is a circuit, whose keys stand in no file"),
+                None => format!("no {kind} is called {}{near}", named(name)),
+            },
             allowed: match arguments.json_schema {
-                true => names.join(", "),
+                true => format!(
+                    "a job, for a schema of its scenarios: {}; --json for the keys of a circuit",
+                    names.join(", ")
+                ),
                 false => "a name of a job or a circuit; `motion-rtl keys` lists all".to_owned(),
             },
         });
@@ -90,7 +96,7 @@ pub fn keys(arguments: &Arguments) -> Result<(), Failure> {
     };
     match arguments.json {
         true => json::print(&keys),
-        false => print(&keys.text()),
+        false => to_standard_output(&keys.text()),
     }
 }
 

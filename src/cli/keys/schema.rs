@@ -1,11 +1,11 @@
 //! JSON schemas of scenarios.
 
 use motion_rtl::scenario::Runnable;
-use motion_rtl::settings::{Key, Shape};
+use motion_rtl::settings::{Defaults, Key, Shape};
 use serde_json::{Map, Value, json};
 
 /// The schema of a job's scenarios.
-pub fn of(job: Runnable, keys: &[&'static Key], defaults: &toml::Table) -> Value {
+pub fn of(job: Runnable, keys: &[&'static Key], defaults: &Defaults) -> Value {
     let mut schema = table(keys, defaults);
     let root = schema.as_object_mut().into_iter();
     root.for_each(|root| {
@@ -21,7 +21,8 @@ pub fn of(job: Runnable, keys: &[&'static Key], defaults: &toml::Table) -> Value
 }
 
 /// The schema of a table.
-fn table(keys: &[&'static Key], defaults: &toml::Table) -> Value {
+fn table(keys: &[&'static Key], defaults: &Defaults) -> Value {
+    let defaults = json!(defaults);
     let properties = keys.iter().map(|key| {
         let mut schema = value(key.shape);
         if let Some(keys) = schema.as_object_mut() {

@@ -1,12 +1,14 @@
 //! Keys of circuits: how a circuit is made from its full or small value and `key=value` pairs.
 
+mod example;
+
 use super::entry::{Base, Entry, Made};
 use super::reader::{Kind, Kinds, Misread};
 use super::{listed, ranges};
 use crate::engine::EngineError;
 use crate::nearest::{self, nearest};
 use crate::netlist::Wrong;
-use crate::settings::{Pair, value};
+use crate::settings::{Pair, unread, value};
 use crate::sim::Elaborated;
 use toml::{Table, Value};
 
@@ -411,10 +413,17 @@ fn wrong(entry: &Entry, table: &Table, pair: &Pair) -> Option<WrongPair> {
         false => format!("{}: {}", error.key, error.problem),
     };
     let names = error.allowed.split('`').skip(1).step_by(2);
+    let number = unread(&pair.value)
+        .filter(|_| kind(entry, table, &error.key) == Some(Kind::Size))
+        .and_then(|_| ranges::of(entry.name, &error.key));
     Some(WrongPair {
         problem: problem + &meant(&pair.value, names),
         pair: pair.clone(),
-        allowed: error.allowed,
+        allowed: match (number, error.bare) {
+            (Some((least, most)), _) => format!("{least} to {most}"),
+            (None, true) => example::of_name(entry, table, pair).unwrap_or(error.allowed),
+            (None, false) => error.allowed,
+        },
     })
 }
 

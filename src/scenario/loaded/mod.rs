@@ -109,7 +109,7 @@ impl Loaded {
                 return Err(Fault::new(name, 0, "file", "is a scenario", allowed));
             }
         };
-        if let Some(circuit) = chosen(sets)?
+        if let Some(circuit) = chosen(&pairs(sets)?)?
             && !circuit.takes(kind)
         {
             let problem = format!("{} does not take {name}, {kind}", circuit.name());
@@ -124,14 +124,10 @@ impl Loaded {
     }
 
     fn build(file: &str, text: &str, sets: &[String]) -> Result<Self, Fault> {
-        let mut pairs = sets
-            .iter()
-            .map(|set| key_value(set))
-            .collect::<Result<Vec<_>, _>>()?;
+        let mut pairs = pairs(sets)?;
         // The circuit decides which other keys there are.
         pairs.sort_by_key(|(key, _)| *key != CIRCUIT);
-        let circuit = pairs.iter().rfind(|(key, _)| *key == CIRCUIT);
-        let circuit = circuit.and_then(|(_, circuit)| circuit.clone().try_into().ok());
+        let circuit = chosen(&pairs)?;
         let mut read = errors::read(file, text, circuit)?;
         let mut overridden = Vec::new();
         let parsed: Result<Table, _> = text.parse();
@@ -140,7 +136,8 @@ impl Loaded {
         while let Some((key, value)) = pairs.next() {
             let job = circuit.or_else(|| circuit_of(&table));
             let defaults = job.map(|job| job.keys().1).unwrap_or_default();
-            insert(&mut table, &defaults, key, value)
+            let unread = value.as_str().and_then(settings::unread);
+            insert(&mut table, &defaults.0, key, value)
                 .map_err(|(problem, allowed)| Fault::new(SET, 0, key, problem, allowed))?;
             overridden.push(key.to_owned());
             // Another circuit may need all of them.
@@ -151,7 +148,16 @@ impl Loaded {
             // readers.
             let text = table.to_string();
             let table = DeTable::parse(&text).map_err(|error| errors::fault(SET, &text, &error))?;
-            read = Some(scenario(&table).map_err(|error| set_fault(job, key, &error))?);
+            let refuse = |error| {
+                let fault = set_fault(job, key, &error);
+                match unread {
+                    Some(problem) if fault.problem.starts_with(NO_TEXT) => {
+                        Fault { problem, ..fault }
+                    }
+                    _ => fault,
+                }
+            };
+            read = Some(scenario(&table).map_err(refuse)?);
         }
         let no_scenario = || Fault::new(file, 0, "file", "is no scenario", "a scenario in TOML");
         Ok(Loaded {
@@ -270,14 +276,28 @@ impl Loaded {
     }
 }
 
-/// Returns the circuit that overrides choose; `None` if they choose none.
-fn chosen(sets: &[String]) -> Result<Option<Runnable>, Fault> {
-    let pairs = sets.iter().map(|set| key_value(set));
-    let pairs = pairs.collect::<Result<Vec<_>, _>>()?;
-    let mut circuits = pairs.into_iter().rev().filter(|(key, _)| *key == CIRCUIT);
-    let circuit = circuits.next();
-    Ok(circuit.and_then(|(_, circuit)| circuit.try_into().ok()))
+/// Returns the keys and values of overrides.
+fn pairs(sets: &[String]) -> Result<Vec<(&str, Value)>, Fault> {
+    sets.iter().map(|set| key_value(set)).collect()
 }
+
+/// Returns the circuit that overrides choose, the last of several; `None` if they choose none.
+///
+/// # Errors
+/// An override that names no circuit.
+fn chosen(pairs: &[(&str, Value)]) -> Result<Option<Runnable>, Fault> {
+    let circuits = pairs.iter().filter(|(key, _)| *key == CIRCUIT);
+    let circuits = circuits.map(|(_, circuit)| {
+        let text = Table::from_iter([(CIRCUIT.to_owned(), circuit.clone())]).to_string();
+        let table = DeTable::parse(&text).map_err(|error| errors::fault(SET, &text, &error))?;
+        head(&table).map_err(|error| set_fault(None, CIRCUIT, &error))
+    });
+    let circuits: Vec<_> = circuits.collect::<Result<_, _>>()?;
+    Ok(circuits.last().copied())
+}
+
+/// Start of the problem of a value that is text, of a key that takes none.
+const NO_TEXT: &str = "invalid type: string";
 
 /// Problem of a key that is missing.
 const MISSING: &str = "missing, and has no default";
@@ -296,13 +316,19 @@ struct Head {
 /// An error and its place in the scenario.
 type Located = serde_path_to_error::Error<toml::de::Error>;
 
+fn read<'de, T: Deserialize<'de>>(table: &Spanned<DeTable<'de>>) -> Result<T, Located> {
+    serde_path_to_error::deserialize(Deserializer::from(table.clone()))
+}
+
+/// The circuit of a scenario.
+fn head(table: &Spanned<DeTable<'_>>) -> Result<Runnable, Located> {
+    let Head { circuit } = read(table)?;
+    Ok(circuit)
+}
+
 /// A scenario with the keys of its circuit.
 fn scenario(table: &Spanned<DeTable<'_>>) -> Result<Scenario, Located> {
-    fn read<'de, T: Deserialize<'de>>(table: &Spanned<DeTable<'de>>) -> Result<T, Located> {
-        serde_path_to_error::deserialize(Deserializer::from(table.clone()))
-    }
-    let Head { circuit } = read(table)?;
-    Ok(match circuit {
+    Ok(match head(table)? {
         Runnable::PulseInterpolator => Scenario::PulseInterpolator(read(table)?),
         Runnable::LinearInterpolator => Scenario::LinearInterpolator(read(table)?),
         Runnable::LeadAngle => Scenario::LeadAngle(read(table)?),
@@ -378,7 +404,8 @@ fn set_fault(job: Option<Runnable>, key: &str, error: &Located) -> Fault {
 fn key_value(set: &str) -> Result<(&str, Value), Fault> {
     let allowed = "key=value with a key of the scenario";
     let pair = settings::key_value(set);
-    let (key, text) = pair.map_err(|problem| Fault::new(SET, 0, set, problem, allowed))?;
+    let field = if set.is_empty() { "\"\"" } else { set };
+    let (key, text) = pair.map_err(|problem| Fault::new(SET, 0, field, problem, allowed))?;
     Ok((key, settings::value(text)))
 }
 

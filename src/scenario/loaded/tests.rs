@@ -205,7 +205,7 @@ fn defaults_can_be_given() {
         let without = Loaded::parse("s.toml", &text, &[]).unwrap().scenario;
         let (keys, defaults) = circuit.keys();
         let given = keys.iter().filter(|key| !key.required);
-        let given = given.filter_map(|key| Some((key.name, defaults.get(key.name)?)));
+        let given = given.filter_map(|key| Some((key.name, defaults.0.get(key.name)?)));
         let given: Vec<_> = given.collect();
         assert!(given.len() > 10, "{circuit:?}: {}", given.len());
         for (key, value) in given {
@@ -230,7 +230,7 @@ fn a_key_of_another_unit_names_the_key_and_the_factor() {
             assert_eq!(
                 refusal(&text, &[]),
                 format!(
-                    "s.toml:2: {key}: is {name}, in mm/min: 60 times the number; allowed: {name}"
+                    "s.toml:2: {key}: the key is called {name}, in mm/min: 60 times the number; allowed: {name}"
                 )
             );
         }
@@ -244,7 +244,7 @@ fn a_key_of_another_unit_names_the_key_and_the_factor() {
     };
     let trajectory = corner("trajectory_controller");
     assert!(
-        trajectory.contains("is corner_mm_per_min, in mm/min: 60 times"),
+        trajectory.contains("is called corner_mm_per_min, in mm/min: 60 times"),
         "{trajectory}"
     );
     let arcs = corner("arc_generator");
@@ -255,7 +255,7 @@ fn a_key_of_another_unit_names_the_key_and_the_factor() {
     let piece = "circuit = \"arc_generator\"\n[[piece]]\nto_mm = [1, 0, 0]\nspeed_mm_per_s = 2\n";
     assert_eq!(
         refusal(piece, &[]),
-        "s.toml:4: speed_mm_per_s: is feed_mm_per_min, in mm/min: 60 times the number; allowed: \
+        "s.toml:4: speed_mm_per_s: the key is called feed_mm_per_min, in mm/min: 60 times the number; allowed: \
          feed_mm_per_min"
     );
 }
@@ -393,6 +393,15 @@ fn the_name_that_was_meant_and_the_range_of_a_key_are_said() {
         ),
     ] {
         assert!(said(set).starts_with(start), "{set}: {}", said(set));
+    }
+    // Of several circuits each has to be one, in whatever order.
+    for sets in [
+        ["circuit=lead_angle", "circuit=machin"],
+        ["circuit=machin", "circuit=lead_angle"],
+    ] {
+        let said = refusal("circuit = \"arc_generator\"\nblend = \"products\"\n", &sets);
+        let start = "--set: circuit: unknown variant `machin`; did you mean machine?; allowed: ";
+        assert!(said.starts_with(start), "{said}");
     }
     assert!(
         refusal("circuit = 5\n", &[])

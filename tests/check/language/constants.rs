@@ -123,16 +123,16 @@ fn unsigned_numbers_fit() {
         &constants(64, 0, 0),
         CONSTANTS,
         &expect![[r#"
-            constants.rs:1:1: constants: `count` at power-on: 64 does not fit 6 bits; allowed are 0 to 63
-            constants.rs:36:21: constants: beside `count`, the constant 64 does not fit 6 bits; allowed are 0 to 63
-            constants.rs:36:42: constants: beside `count`, the constant 64 does not fit 6 bits; allowed are 0 to 63
-            constants.rs:37:27: constants: beside a bitwise operation, the constant 64 does not fit 6 bits; allowed are 0 to 63
-            constants.rs:37:41: constants: beside a bitwise operation, the constant 64 does not fit 6 bits; allowed are 0 to 63
-            constants.rs:38:27: constants: beside a choice, the constant 64 does not fit 6 bits; allowed are 0 to 63
-            constants.rs:38:42: constants: beside a choice, the constant 64 does not fit 6 bits; allowed are 0 to 63
-            constants.rs:39:29: constants: the constant 64 does not fit 6 bits; allowed are 0 to 63
-            constants.rs:39:49: constants: parameter `limit`: 64 does not fit 6 bits; allowed are 0 to 63
-            constants.rs:63:1: constants.part: `sum` at power-on: 64 does not fit 6 bits; allowed are 0 to 63
+            constants.rs:1:1: constants: `count` at power-on: 64 does not fit 6 bits: 0 to 63
+            constants.rs:36:21: constants: beside `count`, the constant 64 does not fit 6 bits: 0 to 63
+            constants.rs:36:42: constants: beside `count`, the constant 64 does not fit 6 bits: 0 to 63
+            constants.rs:37:27: constants: beside a bitwise operation, the constant 64 does not fit 6 bits: 0 to 63
+            constants.rs:37:41: constants: beside a bitwise operation, the constant 64 does not fit 6 bits: 0 to 63
+            constants.rs:38:27: constants: beside a choice, the constant 64 does not fit 6 bits: 0 to 63
+            constants.rs:38:42: constants: beside a choice, the constant 64 does not fit 6 bits: 0 to 63
+            constants.rs:39:29: constants: the constant 64 does not fit 6 bits: 0 to 63
+            constants.rs:39:49: constants: parameter `limit`: 64 does not fit 6 bits: 0 to 63
+            constants.rs:63:1: constants.part: `sum` at power-on: 64 does not fit 6 bits: 0 to 63
         "#]],
     );
 }
@@ -143,22 +143,22 @@ fn signed_numbers_fit() {
         &constants(0, 32, 0),
         CONSTANTS,
         &expect![[r#"
-            constants.rs:1:1: constants: `shift` at power-on: 32 does not fit 6 bits; allowed are -32 to 31
-            constants.rs:40:21: constants: beside `shift`, the constant 32 does not fit 6 bits; allowed are -32 to 31
-            constants.rs:40:40: constants: beside a difference, the constant 32 does not fit 6 bits; allowed are -32 to 31
-            constants.rs:40:54: constants: beside `shift`, the constant 32 does not fit 6 bits; allowed are -32 to 31
-            constants.rs:41:29: constants: the constant 32 does not fit 6 bits; allowed are -32 to 31
+            constants.rs:1:1: constants: `shift` at power-on: 32 does not fit 6 bits: -32 to 31
+            constants.rs:40:21: constants: beside `shift`, the constant 32 does not fit 6 bits: -32 to 31
+            constants.rs:40:40: constants: beside a difference, the constant 32 does not fit 6 bits: -32 to 31
+            constants.rs:40:54: constants: beside `shift`, the constant 32 does not fit 6 bits: -32 to 31
+            constants.rs:41:29: constants: the constant 32 does not fit 6 bits: -32 to 31
         "#]],
     );
     mistakes(
         &constants(0, -33, 0),
         CONSTANTS,
         &expect![[r#"
-            constants.rs:1:1: constants: `shift` at power-on: -33 does not fit 6 bits; allowed are -32 to 31
-            constants.rs:40:21: constants: beside `shift`, the constant -33 does not fit 6 bits; allowed are -32 to 31
-            constants.rs:40:40: constants: beside a difference, the constant -33 does not fit 6 bits; allowed are -32 to 31
-            constants.rs:40:54: constants: beside `shift`, the constant -33 does not fit 6 bits; allowed are -32 to 31
-            constants.rs:41:29: constants: the constant -33 does not fit 6 bits; allowed are -32 to 31
+            constants.rs:1:1: constants: `shift` at power-on: -33 does not fit 6 bits: -32 to 31
+            constants.rs:40:21: constants: beside `shift`, the constant -33 does not fit 6 bits: -32 to 31
+            constants.rs:40:40: constants: beside a difference, the constant -33 does not fit 6 bits: -32 to 31
+            constants.rs:40:54: constants: beside `shift`, the constant -33 does not fit 6 bits: -32 to 31
+            constants.rs:41:29: constants: the constant -33 does not fit 6 bits: -32 to 31
         "#]],
     );
 }
@@ -190,8 +190,7 @@ fn a_negative_power_on_value_is_none_of_an_unsigned_word() {
         }
     }
     let wrong = elaborate(&Negative).unwrap_err().to_string();
-    let what =
-        "`count` at power-on: -1 does not fit 64 bits; allowed are 0 to 18446744073709551615";
+    let what = "`count` at power-on: -1 does not fit 64 bits: 0 to 18446744073709551615";
     assert!(wrong.ends_with(what), "{wrong}");
 }
 
@@ -211,16 +210,16 @@ fn images() -> [Image; 4] {
 fn contents_of_memories_fit() {
     let expected = [
         expect![[r#"
-            constants.rs:4:9: constants: memory `store` at power-on: word 2: 16 does not fit 4 bits; allowed are 0 to 15
-            constants.rs:4:9: constants: contents of a ROM: word 2: 16 does not fit 4 bits; allowed are 0 to 15
+            constants.rs:4:9: constants: memory `store` at power-on: word 2: 16 does not fit 4 bits: 0 to 15
+            constants.rs:4:9: constants: contents of a ROM: word 2: 16 does not fit 4 bits: 0 to 15
         "#]],
         expect![[r#"
             constants.rs:6:9: constants: memory `store` at power-on: word 4: there are 4 words, counted from 0
             constants.rs:6:9: constants: contents of a ROM: word 4: there are 4 words, counted from 0
         "#]],
         expect![[r#"
-            constants.rs:7:16: constants: memory `store` at power-on: word 3: 21 does not fit 4 bits; allowed are 0 to 15
-            constants.rs:7:16: constants: contents of a ROM: word 3: 21 does not fit 4 bits; allowed are 0 to 15
+            constants.rs:7:16: constants: memory `store` at power-on: word 3: 21 does not fit 4 bits: 0 to 15
+            constants.rs:7:16: constants: contents of a ROM: word 3: 21 does not fit 4 bits: 0 to 15
         "#]],
         expect![[r#"
             constants.rs:8:14: constants: memory `store` at power-on: word 4: there are 4 words, counted from 0

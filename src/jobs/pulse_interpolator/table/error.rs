@@ -35,7 +35,7 @@ pub enum TableError {
         most: usize,
     },
     /// A scaled half-period does not fit the memory word.
-    #[error("unit {unit}, {axis}: scaled half-period {half_period}: allowed are 1 to {most}")]
+    #[error("unit {unit}, {axis}: scaled half-period {half_period} is not from 1 to {most}")]
     ScaledHalfPeriod {
         /// Unit time, from 0.
         unit: usize,

@@ -11,7 +11,7 @@
 
 use super::words::{MAX_UNITS, Table, Word};
 use crate::circuits::pulse_interpolator::{AXES_MAX, AXIS_NAMES, Widths};
-use crate::input::{Fault, read_string};
+use crate::input::{Fault, counted, read_string};
 use std::ops::RangeInclusive;
 use std::path::Path;
 
@@ -80,7 +80,7 @@ pub fn read(file: &str, text: &str, clock_hz: u64) -> Result<Table, Fault> {
     for (line, number) in lines {
         let fields: Vec<_> = line.split(',').map(str::trim).collect();
         if fields.len() != names.len() {
-            let problem = format!("has {} fields", fields.len());
+            let problem = format!("has {}", counted(fields.len(), "field"));
             let allowed = format!("{}, as the header", names.len());
             return Err(Fault::new(file, number, "row", problem, allowed));
         }
@@ -184,6 +184,10 @@ mod tests {
             (
                 rows("0,10,3\n"),
                 "t.csv:2: row: has 3 fields; allowed: 4, as the header",
+            ),
+            (
+                rows("0\n"),
+                "t.csv:2: row: has 1 field; allowed: 4, as the header",
             ),
             (
                 rows("1,10,3,0\n"),

@@ -230,7 +230,7 @@ mod tests {
             .to_string();
         assert_eq!(
             error,
-            "unit 0, x: scaled half-period 80000: allowed are 1 to 65535"
+            "unit 0, x: scaled half-period 80000 is not from 1 to 65535"
         );
         let most = Ratio {
             num: u32::MAX,

@@ -1,109 +1,16 @@
 //! Reads a circuit from a table of its keys, and tells what each key takes.
 
+mod kind;
+mod misread;
+
+pub(super) use kind::Kind;
+pub(super) use misread::Misread;
+
+use crate::settings::unread;
 use serde::de::value::StrDeserializer;
 use serde::de::{self, DeserializeSeed, Deserializer, Expected, Unexpected, Visitor};
 use std::cell::RefCell;
-use std::fmt;
 use toml::{Table, Value};
-
-/// Values that a key takes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// Width of a word, or a number of things.
-    Size,
-    /// Whole number from 0.
-    Whole,
-    /// Whole number.
-    Signed,
-    Flag,
-    /// One of these names; some have keys of their own.
-    Name(&'static [&'static str]),
-    List,
-    /// Table of a struct with this name and these keys.
-    Table(&'static str, &'static [&'static str]),
-}
-
-impl fmt::Display for Kind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Kind::Size | Kind::Whole => f.write_str("a whole number from 0"),
-            Kind::Signed => f.write_str("a whole number"),
-            Kind::Flag => f.write_str("true or false"),
-            Kind::List => f.write_str("a list, [1, 2]"),
-            Kind::Table(..) => f.write_str("a table, {key = value}"),
-            Kind::Name(names) => {
-                let (last, others) = names.split_last().unwrap_or((&"", &[]));
-                for (number, name) in others.iter().enumerate() {
-                    let end = match number + 1 == others.len() {
-                        true => " or ",
-                        false => ", ",
-                    };
-                    write!(f, "`{name}`{end}")?;
-                }
-                write!(f, "`{last}`")
-            }
-        }
-    }
-}
-
-/// A value that a key does not take, or a key that its table does not have.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{key}: {problem}; allowed: {allowed}")]
-pub(super) struct Misread {
-    /// Dotted key, of an unknown key that of its table.
-    pub key: String,
-    pub problem: String,
-    pub allowed: String,
-    /// True if a key is unknown.
-    pub unknown: bool,
-}
-
-impl Misread {
-    fn new(problem: String, allowed: String) -> Self {
-        Misread {
-            key: String::new(),
-            problem,
-            allowed,
-            unknown: false,
-        }
-    }
-}
-
-impl de::Error for Misread {
-    fn custom<T: fmt::Display>(problem: T) -> Self {
-        let whole = "the key with all of its table, KEY={a=1, b=2}";
-        Misread::new(problem.to_string(), whole.to_owned())
-    }
-
-    fn invalid_type(given: Unexpected, expected: &dyn Expected) -> Self {
-        Misread::new(format!("invalid type: {given}"), expected.to_string())
-    }
-
-    fn invalid_value(given: Unexpected, expected: &dyn Expected) -> Self {
-        Misread::new(format!("invalid value: {given}"), expected.to_string())
-    }
-
-    fn invalid_length(length: usize, expected: &dyn Expected) -> Self {
-        Misread::new(format!("invalid length {length}"), expected.to_string())
-    }
-
-    fn unknown_variant(name: &str, names: &'static [&'static str]) -> Self {
-        Misread::new(
-            format!("unknown variant `{name}`"),
-            Kind::Name(names).to_string(),
-        )
-    }
-
-    fn unknown_field(field: &str, fields: &'static [&'static str]) -> Self {
-        Misread {
-            unknown: true,
-            ..Misread::new(
-                format!("unknown field `{field}`"),
-                Kind::Name(fields).to_string(),
-            )
-        }
-    }
-}
 
 /// Kinds of the keys that were read, in the order of reading; a name with keys inside stands before them.
 pub(super) type Kinds = RefCell<Vec<(String, Kind)>>;
@@ -167,11 +74,13 @@ impl<'a> Reader<'a> {
             Value::Array(_) => Unexpected::Seq,
             Value::Table(_) => Unexpected::Map,
         };
-        let problem = match kind {
-            Kind::Name(_) => format!("is {}", self.value),
-            _ => format!("invalid type: {given}"),
+        let unread = self.value.as_str().and_then(unread);
+        let misread = match (kind, unread) {
+            (Kind::Name(_), _) => Misread::new(format!("is {}", self.value), kind.to_string()),
+            (_, Some(problem)) => Misread::new(problem, kind.most()),
+            (_, None) => Misread::new(format!("invalid type: {given}"), kind.to_string()),
         };
-        Self::named(&self.key, Err(Misread::new(problem, kind.to_string())))
+        Self::named(&self.key, Err(misread))
     }
 
     fn whole<'de, V: Visitor<'de>>(self, visitor: V, kind: Kind) -> Result<V::Value, Misread> {
@@ -397,8 +306,10 @@ struct Variant<'a> {
 
 impl<'a> Variant<'a> {
     fn inside(self) -> Result<Reader<'a>, Misread> {
-        self.inside
-            .ok_or_else(|| de::Error::custom(format!("`{}` without its keys", self.name)))
+        self.inside.ok_or_else(|| Misread {
+            bare: true,
+            ..de::Error::custom(format!("`{}` without its keys", self.name))
+        })
     }
 }
 
