@@ -16,6 +16,15 @@ pub enum RunError {
     /// The waves could not be written.
     #[error("the waves could not be written: {0}")]
     Waves(#[from] io::Error),
+    /// Another file that grows with the run could not be written.
+    #[error("the {file} could not be written: {error}")]
+    File {
+        /// Kind of the file, such as `time series`.
+        file: &'static str,
+        /// Error of its writer.
+        #[source]
+        error: io::Error,
+    },
     /// An input does not fit its port.
     #[error("tick {tick}: {error}")]
     Input {
@@ -48,6 +57,11 @@ pub(crate) fn at_fault(signals: &[String]) -> String {
 }
 
 impl RunError {
+    /// Returns a conversion of the error of this kind of file.
+    pub fn of_file(file: &'static str) -> impl FnOnce(io::Error) -> RunError {
+        move |error| RunError::File { file, error }
+    }
+
     /// Returns a conversion of an input error at this tick.
     pub(crate) fn at(tick: u64) -> impl FnOnce(InputError) -> RunError {
         move |error| RunError::Input { tick, error }

@@ -56,7 +56,8 @@ impl<W: Write> OutputFile<W> {
 
 impl<C: Circuit, W: Write> Observer<C> for OutputFile<W> {
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        self.tick(now.view())?;
+        let tick = self.tick(now.view());
+        tick.map_err(RunError::of_file("list of outputs"))?;
         Ok(ControlFlow::Continue(()))
     }
 }

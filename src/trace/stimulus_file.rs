@@ -27,6 +27,9 @@ pub struct StimulusFile<W> {
     last: Option<u64>,
 }
 
+/// Kind of the file in errors.
+const STIMULUS: &str = "stimulus";
+
 impl<W: Write> StimulusFile<W> {
     /// Begins the stimulus of a circuit.
     pub fn new(out: W, circuit: &impl Described) -> Self {
@@ -76,9 +79,11 @@ impl<W: Write> StimulusFile<W> {
             && last.checked_add(1) != Some(tick)
         {
             let problem = format!("tick {tick} does not follow tick {last}");
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, problem).into());
+            let error = io::Error::new(io::ErrorKind::InvalidInput, problem);
+            return Err(RunError::of_file(STIMULUS)(error));
         }
-        self.lines.tick(engine, false, &mut self.out)?;
+        let tick = self.lines.tick(engine, false, &mut self.out);
+        tick.map_err(RunError::of_file(STIMULUS))?;
         Ok(ControlFlow::Continue(()))
     }
 }

@@ -91,6 +91,10 @@ fn a_disk_that_is_full_leaves_neither_files_nor_directories() {
         .stdout("")
         .stderr("error: the waves could not be written: a/b/l.vcd: File too large (os error 27)\n");
     assert_eq!(bench.names(), ["l.hpgl"]);
+    let series = ["--no-vcd", "--series", "s.csv", "--series-every", "1"];
+    let text = "error: the time series could not be written: s.csv: File too large (os error 27)\n";
+    full("bash").args(series).assert().code(2).stderr(text);
+    assert_eq!(bench.names(), ["l.hpgl"]);
 }
 
 #[cfg(unix)]

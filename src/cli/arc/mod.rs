@@ -138,8 +138,12 @@ fn series_of(job: &Job) -> SeriesLayout<'_> {
     let strobe = "sampled";
     let per_mm = job.settings.counts_per_mm;
     let last = job.prepared.samples().saturating_sub(1);
+    // Before the first sample there is neither a point nor a command.
     let exact = move |samples: u64| {
-        let point = job.prepared.point(samples.saturating_sub(1).min(last));
+        if samples == 0 {
+            return Vec::new();
+        }
+        let point = job.prepared.point((samples - 1).min(last));
         let point = point.unwrap_or([f64::NAN; COORDINATES]);
         point.map(|mm| mm * per_mm).to_vec()
     };

@@ -192,10 +192,12 @@ impl<W: Write> SeriesFile<'_, W> {
     }
 
     fn row(&mut self, tick: u64, view: View<'_>) -> io::Result<()> {
-        self.rows += 1;
         for plan in &mut self.plans {
-            plan.evaluate();
+            if !plan.evaluate() {
+                return Ok(());
+            }
         }
+        self.rows += 1;
         let time_s = tick as f64 / self.clock_hz;
         let is_text = self.header.is_none();
         self.text.clear();
@@ -252,7 +254,8 @@ impl<C: Circuit, W: Write> Observer<C> for SeriesFile<'_, W> {
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        self.tick(now.tick, now.view())?;
+        let row = self.tick(now.tick, now.view());
+        row.map_err(RunError::of_file("time series"))?;
         Ok(ControlFlow::Continue(()))
     }
 }

@@ -44,7 +44,7 @@ pub struct SeriesPlan<'a> {
     /// Path of the signal below the circuit whose ticks are counted, as `busy`.
     pub clock: String,
     /// Returns the positions of all axes once that signal has been high in this number of ticks,
-    /// which never decreases from call to call.
+    /// which never decreases from call to call. A tick for which it returns none has no row.
     pub at: Box<dyn FnMut(u64) -> Vec<f64> + 'a>,
 }
 
@@ -91,8 +91,10 @@ impl<'a> Plan<'a> {
         self.count += u64::from(self.was_high);
     }
 
-    pub(super) fn evaluate(&mut self) {
+    /// Computes the positions; returns false if there are none yet.
+    pub(super) fn evaluate(&mut self) -> bool {
         self.positions = (self.plan.at)(self.count);
+        !self.positions.is_empty()
     }
 }
 
