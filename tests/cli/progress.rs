@@ -35,3 +35,28 @@ fn a_long_run_says_its_ticks_before_it_starts() {
     let off = (ticks - seen).abs() as f64 / seen as f64;
     assert!(off < 0.15, "{ticks} said, {seen} seen");
 }
+
+/// The servos, which stop after each move and wait for the pen, take longer than the steppers.
+#[test]
+fn the_ticks_of_the_machine_are_about_those_of_its_run() {
+    let bench = Bench::with("l.hpgl", "PD400,0,400,200;PU0,0;PD0,200;");
+    let run = [
+        "run",
+        "l.hpgl",
+        "--set",
+        "circuit=machine",
+        "--no-vcd",
+        "--json",
+        "-v",
+    ];
+    let done = bench.run(&run);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let said = done.stderr.lines().find_map(|line| {
+        let (_, said) = line.split_once(": running, about ")?;
+        said.strip_suffix(" ticks")?.parse::<f64>().ok()
+    });
+    let said = said.unwrap_or_else(|| panic!("{}", done.stderr));
+    let summary = serde_json::from_str(&done.stdout).unwrap();
+    let seen = whole(&summary, "/ticks") as f64;
+    assert!((said - seen).abs() / seen < 0.1, "{said} said, {seen} seen");
+}

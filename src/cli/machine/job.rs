@@ -12,6 +12,7 @@ use motion_rtl::jobs::trajectory_controller::program::ProgramError as Trajectory
 use motion_rtl::path::pieces::Speeds;
 use motion_rtl::scenario::Loaded;
 use motion_rtl::settings::{Place, SettingError};
+use std::iter;
 
 /// An input ready to be run.
 #[derive(Debug)]
@@ -45,9 +46,25 @@ impl Job {
         })
     }
 
-    /// Ticks that the steppers take, for the progress bar; the servos take more.
+    /// Approximate ticks of the run, for the progress bar: those of the steppers, or those of the
+    /// servos, which settle after each move and wait for the lift.
     pub fn ticks_at_least(&self) -> u64 {
-        self.program.table.total_ticks()
+        let (program, settings) = (&self.program, &self.settings);
+        let pens = iter::once(true).chain(program.moves.iter().map(|step| step.rapid));
+        let pens: Vec<_> = pens.collect();
+        let liftings = pens.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        let (lift, speed) = (settings.lift(), f64::from(settings.lift_counts_per_s));
+        let way = settings.pen_down_counts.unsigned_abs() as f64;
+        let lift_s = way / speed + speed / settings.lift.acceleration_counts_per_s2;
+        let lift_s = lift_s + (lift.rest_ms + lift.standstill_ms) / 1e3;
+        // The loads follow the commands by 1/k1, and approach the ends exponentially.
+        let speed = settings.motion.feed_mm_per_min / 60.0 * settings.counts_per_mm;
+        let behind = speed / settings.k1_per_s / f64::from(settings.in_position_counts);
+        let settling_s = behind.ln().max(0.0) / settings.k1_per_s;
+        let servos_s =
+            program.moving_s + liftings as f64 * lift_s + program.moves.len() as f64 * settling_s;
+        let servos = (servos_s * settings.clock_hz as f64) as u64;
+        program.table.total_ticks().max(servos)
     }
 }
 

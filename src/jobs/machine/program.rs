@@ -88,6 +88,8 @@ pub struct Program {
     pub profile: Vec<Record>,
     /// Acceleration time of lines in scans.
     pub ramp_scans: u64,
+    /// Duration of all moves in s, without the time in which the motors settle.
+    pub moving_s: f64,
 }
 
 /// Reason why there is no program.
@@ -146,6 +148,7 @@ impl Program {
             arcs: Vec::new(),
             profile: Vec::new(),
             ramp_scans: settings.ramps()[0].periods,
+            moving_s: 0.0,
             pieces: Vec::new(),
         };
         program.add_moves(drawing, &pieces, settings, &widths)?;
@@ -219,6 +222,7 @@ impl Program {
                 }
             };
             let profile = length_in_time(stretch.begin, stretch.length, speed * unit, ramp_s);
+            self.moving_s += profile.duration;
             let made_profile = profile_records(&profile, self.path.motion.period, widths);
             self.moves.push(Move {
                 piece: index,
