@@ -135,6 +135,20 @@ impl Bench {
     }
 }
 
+/// The files of a circuit with its testbench, as they are listed; `stem` is directory and circuit.
+pub fn testbench_files(stem: &str) -> [String; 7] {
+    [
+        ".v",
+        "_tb.v",
+        ".f",
+        ".vcd",
+        ".stimulus",
+        ".expected",
+        ".still",
+    ]
+    .map(|end| format!("{stem}{end}"))
+}
+
 /// The paths of the files that a summary names.
 pub fn paths(summary: &Value) -> Value {
     let files = summary["files"].as_array().expect("a list of files");

@@ -1,6 +1,6 @@
 //! `verilog`: its files, and its refusals.
 
-use super::support::{Bench, without_sizes};
+use super::support::{Bench, testbench_files, without_sizes};
 
 const TESTBENCH: [&str; 6] = ["--width", "4", "--testbench", "200", "--out", "v"];
 
@@ -37,16 +37,7 @@ fn a_testbench_of_an_earlier_export_is_told() {
 fn a_testbench_comes_with_its_stimulus_and_golden_waves() {
     let bench = Bench::new();
     let said = bench.succeed(&verilog("enable_counter", &TESTBENCH));
-    let files = [
-        ".v",
-        "_tb.v",
-        ".f",
-        ".vcd",
-        ".stimulus",
-        ".expected",
-        ".still",
-    ];
-    let files = files.map(|end| format!("v/enable_counter{end}"));
+    let files = testbench_files("v/enable_counter");
     let (stimulus, names) = said.split_at(said.find("v/").unwrap());
     assert_eq!(
         stimulus,
@@ -213,6 +204,43 @@ fn widths_and_numbers_that_are_not_taken_are_refused() {
         &verilog("enable_counter", &["--width", "0", "--out", "v"]),
         "--set width=0: is 0; allowed: 1 to 64",
     );
+    for (circuit, set, told) in [
+        (
+            "compensator",
+            "widths.position=18446744073709551616",
+            "is 18446744073709551616: too large; allowed: 2 to 53",
+        ),
+        (
+            "pattern_memory",
+            "axis=1_000_000_000_000_000_000_000",
+            "is 1_000_000_000_000_000_000_000: too large; allowed: a whole number from 0 to \
+             9223372036854775807",
+        ),
+        (
+            "compensator",
+            "widths={position=18446744073709551616}",
+            "is {position=18446744073709551616}: ",
+        ),
+        ("compensator", "widths.step=17", "is 17; allowed: 1 to 16"),
+    ] {
+        bench.refuse_with(&verilog(circuit, &["--set", set, "--out", "v"]), |said| {
+            let start = format!("error: --set {set}: {told}");
+            assert!(said.starts_with(&start), "{said}");
+        });
+    }
+    bench.refuse_with(
+        &verilog(
+            "compensator",
+            &["--set", "rom=[1,2,99999999999]", "--out", "v"],
+        ),
+        |said| {
+            assert!(
+                said.contains("99999999999 does not fit 11 bits: 0 to 2047; allowed: values"),
+                "{said}"
+            );
+            assert_eq!(said.matches("allowed").count(), 1, "{said}");
+        },
+    );
     // Of two values the later counts, but the earlier has to be one.
     bench.refuse(
         &verilog(
@@ -370,4 +398,23 @@ fn parts_of_another_export_stay() {
         "{list}"
     );
     assert!(list.ends_with("\naxis.v\n// axis_tb.v\n"), "{list}");
+}
+
+/// The message of a name without its keys shows a value that the circuit takes.
+#[test]
+fn a_name_without_its_keys_is_answered_by_an_example() {
+    let bench = Bench::new();
+    for (circuit, set) in [
+        ("conventional_compensator", "lead_from=time"),
+        ("conventional_compensator", "lead_from=table"),
+        ("compensator", "lead_from=table"),
+        ("controller", "source=conventional"),
+    ] {
+        let done = bench.run(&["list", circuit, "--set", set]);
+        assert_eq!(done.code, 2, "{circuit}: {}", done.stdout);
+        let example = done.stderr.split('\'').nth(1);
+        let example = example.unwrap_or_else(|| panic!("{circuit}: {}", done.stderr));
+        assert!(example.starts_with(&format!("{}={{", set.split('=').next().unwrap())));
+        bench.succeed(&["list", circuit, "--set", example]);
+    }
 }

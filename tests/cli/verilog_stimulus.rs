@@ -1,6 +1,6 @@
 //! `verilog --stimulus`: inputs of the user, and what is wrong with them.
 
-use super::support::{Bench, without_sizes};
+use super::support::{Bench, testbench_files, without_sizes};
 
 const COUNTER: [&str; 5] = ["verilog", "enable_counter", "--width", "4", "--stimulus"];
 
@@ -15,16 +15,7 @@ fn a_table_is_played() {
         "# two periods\nperiod, rst\n3, 0\n3, 0\n3, 0\n3, 1\n0x2, 0\n2, 0\n2, 0\n",
     );
     let said = bench.succeed(&plays("inputs.csv", &[]));
-    let files = [
-        ".v",
-        "_tb.v",
-        ".f",
-        ".vcd",
-        ".stimulus",
-        ".expected",
-        ".still",
-    ];
-    let files = files.map(|end| format!("v/enable_counter{end}\n"));
+    let files = testbench_files("v/enable_counter");
     let (report, names) = said.split_at(said.find("v/").unwrap());
     assert_eq!(
         report,
@@ -32,7 +23,7 @@ fn a_table_is_played() {
          each of 4 signals changed\n\
          a word of the stimulus, from bit 0: period [3:0], rst [4]\n"
     );
-    assert_eq!(without_sizes(names), files.concat());
+    assert_eq!(without_sizes(names), files.join("\n") + "\n");
     let stimulus = bench.read("v/enable_counter.stimulus");
     assert_eq!(stimulus, "03\n03\n03\n13\n02\n02\n02\n");
     // Enable in the last tick of a period, which the reset begins anew.
