@@ -31,6 +31,25 @@ pub unsafe extern "C" fn mrtl_find(model: mrtl_model, name: *const c_char) -> i3
     }
 }
 
+/// Copies a text of a signal; returns its length.
+///
+/// # Safety
+/// Calls with one handle do not overlap in time, and `text` is NULL or has `room` bytes.
+unsafe fn copy(
+    model: mrtl_model,
+    index: i32,
+    text: *mut c_char,
+    room: usize,
+    of: impl FnOnce(&SignalInfo) -> &str,
+) -> i32 {
+    // SAFETY: this function's contract is the same.
+    unsafe {
+        on(model, |bench| {
+            text::write(of(bench.signal(index)?), text, room)
+        })
+    }
+}
+
 /// Copies the path of a signal below its circuit; returns its length.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mrtl_name(
@@ -41,11 +60,7 @@ pub unsafe extern "C" fn mrtl_name(
 ) -> i32 {
     // SAFETY: by the header's rules calls with one handle do not overlap, and `text` is NULL or has
     // `room` bytes.
-    unsafe {
-        on(model, |bench| {
-            text::write(&bench.signal(index)?.path, text, room)
-        })
-    }
+    unsafe { copy(model, index, text, room, |signal| &signal.path) }
 }
 
 /// Copies the name of a signal below the circuit's Verilog module; returns its length.
@@ -58,11 +73,7 @@ pub unsafe extern "C" fn mrtl_verilog_name(
 ) -> i32 {
     // SAFETY: by the header's rules calls with one handle do not overlap, and `text` is NULL or has
     // `room` bytes.
-    unsafe {
-        on(model, |bench| {
-            text::write(&bench.signal(index)?.verilog, text, room)
-        })
-    }
+    unsafe { copy(model, index, text, room, |signal| &signal.verilog) }
 }
 
 /// Copies the documentation of a signal, one line that may be empty; returns its length.
@@ -75,11 +86,7 @@ pub unsafe extern "C" fn mrtl_doc(
 ) -> i32 {
     // SAFETY: by the header's rules calls with one handle do not overlap, and `text` is NULL or has
     // `room` bytes.
-    unsafe {
-        on(model, |bench| {
-            text::write(&bench.signal(index)?.doc, text, room)
-        })
-    }
+    unsafe { copy(model, index, text, room, |signal| &signal.doc) }
 }
 
 /// Returns a property of a signal.
