@@ -1,6 +1,6 @@
 //! A circuit of the catalogue that is asked for on the command line.
 
-use super::Failure;
+use super::{Failure, named};
 use clap::Args;
 use motion_rtl::Model;
 use motion_rtl::nearest::did_you_mean;
@@ -44,7 +44,7 @@ pub fn entry(name: &str) -> Result<&'static Entry, Failure> {
         let near = did_you_mean(name, names());
         Failure::Argument {
             field: "CIRCUIT",
-            problem: format!("there is no {name}{near}"),
+            problem: format!("there is no {}{near}", named(name)),
             allowed: CIRCUITS.into(),
         }
     })
@@ -67,12 +67,23 @@ pub fn entries(names: &[String]) -> Result<Vec<&'static Entry>, Failure> {
 
 /// Refuses changed keys of all circuits at once.
 pub fn no_circuit(changes: &Changes, command: &str) -> Failure {
+    if changes.with.is_some() {
+        return no_numbers("values by their keys, --set KEY=VALUE; see `list`".to_owned());
+    }
     Failure::Argument {
         field: "CIRCUIT",
         problem: format!("missing beside{changes}"),
         allowed: format!(
             "the circuit whose key it is, as in `{command} comparator --set comparing=equal`"
         ),
+    }
+}
+
+fn no_numbers(allowed: String) -> Failure {
+    Failure::Argument {
+        field: "--with",
+        problem: "takes no numbers".to_owned(),
+        allowed,
     }
 }
 
@@ -116,11 +127,8 @@ impl Changes {
         });
         let new = instance.unwrap_or_else(|| format!("none: {} has no keys", entry.name));
         if self.with.is_some() {
-            return Err(Failure::Argument {
-                field: "--with",
-                problem: "takes no numbers".to_owned(),
-                allowed: format!("values by their keys, {new}; see `list {}`", entry.name),
-            });
+            let allowed = format!("values by their keys, {new}; see `list {}`", entry.name);
+            return Err(no_numbers(allowed));
         }
         let mut pairs = Vec::new();
         // Of several the last counts, as of a key.
@@ -174,9 +182,6 @@ impl Changes {
 /// Formats the options as on the command line.
 impl fmt::Display for Changes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(numbers) = &self.with {
-            write!(f, " --with {}", numbers.join(" "))?;
-        }
         for bits in &self.width {
             write!(f, " --width {bits}")?;
         }

@@ -1,8 +1,8 @@
-//! `clean`: removes what runs have written into a directory.
+//! `clean`: removes the files that commands have written into a directory.
 
 use super::files::size;
 use super::written::Written;
-use super::{Failure, print, voice, warn};
+use super::{Failure, print, to_standard_output, voice, warn};
 use clap::Args;
 use std::fmt::Write as _;
 use std::fs;
@@ -12,7 +12,7 @@ use std::path::PathBuf;
 /// Arguments of `clean`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Directory with the files of runs.
+    /// Directory with the files.
     #[arg(value_name = "DIR", default_value = "waves")]
     directory: PathBuf,
     /// Names the files, and removes none.
@@ -23,23 +23,29 @@ pub struct Arguments {
     yes: bool,
 }
 
-/// Lists the unchanged files of earlier runs and removes them.
+/// Lists the unchanged files of earlier commands and removes them.
 pub fn clean(arguments: &Arguments) -> Result<(), Failure> {
     let directory = &arguments.directory;
     if !directory.is_dir() {
         return Err(Failure::Argument {
             field: "DIR",
             problem: format!("{} is not a directory", directory.display()),
-            allowed: "the --out of a run".into(),
+            allowed: "the --out of a command".into(),
         });
     }
     let written = Written::read(directory);
     let (files, changed) = written.split();
     for path in &changed {
-        warn(&format!("{} changed since: it stays", path.display()));
+        warn(&format!(
+            "{} has changed since it was written, and stays",
+            path.display()
+        ));
     }
     if files.is_empty() {
-        return print(&format!("{} has no files of runs\n", directory.display()));
+        return print(&format!(
+            "{} has no files of this program\n",
+            directory.display()
+        ));
     }
     let mut text = String::new();
     for path in &files {
@@ -47,7 +53,10 @@ pub fn clean(arguments: &Arguments) -> Result<(), Failure> {
         // Writing to a string does not fail.
         let _ = writeln!(text, "{} ({})", path.display(), size(bytes));
     }
-    print(&text)?;
+    match arguments.dry_run {
+        true => to_standard_output(&text)?,
+        false => print(&text)?,
+    }
     if arguments.dry_run || !(arguments.yes || agreed(files.len())?) {
         return Ok(());
     }

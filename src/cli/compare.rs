@@ -1,6 +1,6 @@
 //! `compare`: two waveforms held against each other, tick by tick.
 
-use super::{Failure, json, print, threads};
+use super::{Failure, json, print, threads, to_standard_output};
 use clap::Args;
 use motion_rtl::compare::{Map, Settings, compare as hold, template};
 use std::path::PathBuf;
@@ -113,7 +113,7 @@ pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
     };
     threads::start()?;
     if arguments.template {
-        return print(&template(&arguments.golden, &arguments.other, &settings)?);
+        return to_standard_output(&template(&arguments.golden, &arguments.other, &settings)?);
     }
     let report = hold(&arguments.golden, &arguments.other, &settings)?;
     match arguments.json {

@@ -6,7 +6,7 @@ use super::job::Job;
 use super::shipped::{SHIPPED, Shipped};
 use super::source::Source;
 use super::waves_of::System;
-use super::{Failure, json, print};
+use super::{Failure, json, to_standard_output};
 use clap::Args;
 use motion_rtl::hdl::Declaration;
 use motion_rtl::netlist::Role;
@@ -111,7 +111,7 @@ pub fn list(arguments: &Arguments) -> Result<(), Failure> {
     };
     match arguments.json {
         true => json::print(&listing),
-        false => print(&text(&listing)),
+        false => to_standard_output(&text(&listing)),
     }
 }
 

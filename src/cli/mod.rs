@@ -145,7 +145,15 @@ impl Failure {
     }
 }
 
-/// Prints to standard output; a reader that has gone away (`| head`) is no failure.
+/// Returns a name for a message; an empty one in quotes.
+fn named(name: &str) -> &str {
+    match name {
+        "" => "\"\"",
+        name => name,
+    }
+}
+
+/// Prints the outcome of a command, unless `--quiet` is set.
 fn print(text: &str) -> Result<(), Failure> {
     match voice::is_quiet() {
         true => Ok(()),
@@ -153,6 +161,7 @@ fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// Prints to standard output; a reader that has gone away (`| head`) is no failure.
 fn to_standard_output(text: &str) -> Result<(), Failure> {
     printed(io::stdout().lock().write_all(plain(text).as_bytes()))
 }

@@ -1,7 +1,7 @@
 //! The program: its commands, the options that all of them have, and how it ends.
 
 use super::voice::{self, Voice};
-use super::{Failure, errors, help, limits, printed, signals, version};
+use super::{Failure, errors, help, limits, named, printed, signals, version};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use motion_rtl::nearest::did_you_mean;
 use std::ffi::OsString;
@@ -55,7 +55,8 @@ enum Command {
     /// Lists the keys of a job's scenarios or of a circuit: types, units, values and ranges.
     #[command(after_help = help::KEYS)]
     Keys(super::keys::Arguments),
-    /// Removes the files that runs have written into a directory, after naming them.
+    /// Removes the files that commands have written into a directory, after naming them: waves,
+    /// pictures, counterexamples, tables, Verilog and stimuli.
     #[command(after_help = help::CLEAN)]
     Clean(super::clean::Arguments),
     /// Prints a JSON schema of what `run --json` and `check --json` print, and of errors.
@@ -71,6 +72,13 @@ enum Command {
     #[command(after_help = help::MAN)]
     Man(super::shell::Man),
 }
+
+/// Commands that a program may be built without, and the features that they need.
+const OPTIONAL: [(&str, &str); 3] = [
+    ("completions", "shell"),
+    ("man", "shell"),
+    ("schema", "schema"),
+];
 
 /// Returns the description of the command line.
 pub fn description() -> clap::Command {
@@ -141,17 +149,33 @@ fn with_run(mut words: Vec<OsString>) -> Result<Vec<OsString>, Failure> {
     if word == "help" {
         return Ok(options_first(words, at));
     }
+    if word == "-V" {
+        words[at] = "--version".into();
+    }
     let asked = ["-h", "--help", "-V", "--version"];
     if asked.contains(&&*word) || commands.contains(&word) {
         return Ok(words);
+    }
+    let optional = OPTIONAL.iter().find(|(name, _)| *name == word);
+    if let Some((name, feature)) = optional
+        && !Path::new(name).exists()
+    {
+        return Err(Failure::Argument {
+            field: "COMMAND",
+            problem: format!("{name} is left out of this program"),
+            allowed: format!("a program built with `cargo build --release --features {feature}`"),
+        });
     }
     let is_path = word.starts_with('-') || word.contains(['.', '/', '\\']);
     if !is_path && !Path::new(&words[at]).exists() {
         let near = did_you_mean(&word, commands.iter().map(String::as_str));
         return Err(Failure::Argument {
             field: "COMMAND",
-            problem: format!("there is no command {word}, and no file of that name{near}"),
-            allowed: format!("a file; {}", commands.join(", ")),
+            problem: format!(
+                "there is no command {}, and no file of that name{near}",
+                named(&word)
+            ),
+            allowed: format!("a file, or a command: {}", commands.join(", ")),
         });
     }
     words.insert(at, "run".into());

@@ -42,11 +42,3 @@ pub fn or_dash(value: Option<impl ToString>) -> String {
 pub fn fixed_or_dash(value: Option<f64>, decimals: usize) -> String {
     or_dash(value.map(|value| fixed(value, decimals)))
 }
-
-/// Formats a count of things: "1 stop", "2 stops".
-pub fn plural(count: usize, thing: &str) -> String {
-    match count {
-        1 => format!("1 {thing}"),
-        _ => format!("{count} {thing}s"),
-    }
-}

@@ -1,8 +1,8 @@
 //! `schema`: a JSON schema of the summaries of `run`, the report of `check`, and errors.
 
 use super::{
-    Failure, arc, check, errors, json as output, keys, lead_angle, linear, machine, print, pulse,
-    trajectory, waves_of,
+    Failure, arc, check, errors, json as output, keys, lead_angle, linear, machine, pulse,
+    to_standard_output, trajectory, waves_of,
 };
 use motion_rtl::settings;
 use schemars::generate::SchemaSettings;
@@ -61,7 +61,7 @@ fn complete(schema: &mut Value) {
 
 /// Prints the schema.
 pub fn schema() -> Result<(), Failure> {
-    print(&format!("{:#}\n", of_all()))
+    to_standard_output(&format!("{:#}\n", of_all()))
 }
 
 /// Returns the schema of all of them; each kind is one of its definitions.

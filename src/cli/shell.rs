@@ -2,7 +2,7 @@
 
 use super::files::Files;
 use super::program::description;
-use super::{Failure, print};
+use super::{Failure, print, to_standard_output};
 use clap::Args;
 use clap_complete::Shell;
 use clap_mangen::Man as Page;
@@ -32,7 +32,7 @@ pub struct Man {
 pub fn completions(arguments: &Completions) -> Result<(), Failure> {
     let mut text = Vec::new();
     clap_complete::generate(arguments.shell, &mut description(), NAME, &mut text);
-    print(&String::from_utf8_lossy(&text))
+    to_standard_output(&String::from_utf8_lossy(&text))
 }
 
 /// Writes the man pages.

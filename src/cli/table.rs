@@ -2,13 +2,13 @@
 
 use super::files::Named;
 use super::pulse::{Job, TableSummary, warnings};
-use super::rows::plural;
 use super::source::{Input, Source};
 use super::written::Written;
 use super::{Failure, json, print};
 use clap::Args;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
 use motion_rtl::files;
+use motion_rtl::input::counted;
 use motion_rtl::jobs::pulse_interpolator::table::read::columns;
 use motion_rtl::jobs::pulse_interpolator::{AxisScaling, Ratio, Report, Scaled, Table};
 use serde::Serialize;
@@ -140,7 +140,7 @@ fn text(job: &Job, output: &Output<'_>) -> String {
         output.input,
         job.report.total_ticks,
         output.clock_hz,
-        plural(output.patterns, "pattern")
+        counted(output.patterns, "pattern")
     );
     let _ = writeln!(
         text,

@@ -1,13 +1,13 @@
 //! The files of a run while it goes on: waves, save file, and the circuit in Verilog with its
 //! stimulus.
 
-use super::Failure;
 use super::export::Export;
 use super::files::Files;
 use super::plan::{Noted, of_job};
 use super::progress::Part;
 use super::series::SeriesPath;
 use super::setup::Setup;
+use super::{Failure, named};
 use motion_rtl::files::AtomicFile;
 use motion_rtl::hdl::Circuit;
 use motion_rtl::sim::{Described, Observer, RunError, Without};
@@ -196,7 +196,7 @@ fn refused(error: io::Error) -> Failure {
 fn not_selected(error: &LayoutError) -> Failure {
     let (problem, allowed) = match error {
         LayoutError::Unknown { wanted, scopes } => (
-            format!("there is no {wanted}"),
+            format!("there is no {}", named(wanted)),
             format!("a signal, or a scope: {}", outermost(scopes)),
         ),
         other => (other.to_string(), "other signals".into()),

@@ -2,7 +2,8 @@
 
 use std::sync::LazyLock;
 
-/// Commit, if the environment of the build named it in `MOTION_RTL_COMMIT`.
+/// Commit, if the environment of the build named it in `MOTION_RTL_COMMIT`. A build script that asked
+/// git would compile the whole crate again after every commit; this variable concerns the program alone.
 const COMMIT: Option<&str> = option_env!("MOTION_RTL_COMMIT");
 
 /// Optional features, and whether they are built in.
@@ -41,12 +42,12 @@ static LONG: LazyLock<String> = LazyLock::new(|| {
     )
 });
 
-/// Returns the version in one line, as `-V` prints it.
+/// Returns the version in one line.
 pub fn short() -> &'static str {
     &SHORT
 }
 
-/// Returns version, commit, features and platform, as `--version` prints them.
+/// Returns version, commit, features and platform.
 pub fn long() -> &'static str {
     &LONG
 }

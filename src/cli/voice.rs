@@ -21,7 +21,7 @@ pub enum Color {
 /// Options of all commands.
 #[derive(Debug, Args)]
 pub struct Voice {
-    /// Prints only errors and requested JSON.
+    /// Prints only errors, JSON, and lists that a command is asked for.
     #[arg(long, short, global = true, conflicts_with = "verbose")]
     quiet: bool,
     /// Reports inputs, stages and their start times on standard error.

@@ -1,6 +1,5 @@
 //! `run --waves-of`: one system of a scenario's summary with its waves.
 
-use super::Failure;
 use super::arguments::Arguments;
 use super::files::Files;
 use super::progress::Work;
@@ -8,6 +7,7 @@ use super::report::{Outcome, Report, conclude};
 use super::setup::Setup;
 use super::simulate::{Stage, with_waves};
 use super::traces::End;
+use super::{Failure, named};
 use motion_rtl::hdl::Circuit;
 use motion_rtl::scenario::Loaded;
 use motion_rtl::sim::{Elaborated, Observer};
@@ -137,7 +137,7 @@ pub fn run(
     let Some(system) = found else {
         return Err(Failure::Argument {
             field: "--waves-of",
-            problem: format!("{stem} has no system {wanted}"),
+            problem: format!("{stem} has no system {}", named(wanted)),
             allowed: keys.join(", "),
         });
     };

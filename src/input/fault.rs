@@ -18,6 +18,14 @@ pub const MOST_FAULTS: usize = 20;
 const SHOWN_BEFORE: usize = 60;
 const SHOWN_FROM: usize = 100;
 
+/// Formats a count of things: "1 field", "2 fields".
+pub fn counted(count: usize, thing: &str) -> String {
+    match count {
+        1 => format!("1 {thing}"),
+        _ => format!("{count} {thing}s"),
+    }
+}
+
 /// Error in an input file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {

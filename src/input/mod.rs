@@ -17,7 +17,7 @@ mod track;
 
 pub(crate) use fault::Faults;
 use fault::brief;
-pub use fault::{Excerpt, Fault, LISTED, MOST_FAULTS, SHOWN, shown};
+pub use fault::{Excerpt, Fault, LISTED, MOST_FAULTS, SHOWN, counted, shown};
 pub(crate) use file::size;
 pub use file::{
     DRAWINGS, Kind, LARGEST_FILE, Language, MORE_FILES, Options, POSITION_LOGS, Zeros, as_text,

@@ -59,7 +59,7 @@ fn a_mistyped_command_or_scenario_is_named() {
     assert_eq!((done.code, done.stdout.as_str()), (2, ""));
     let text = format!(
         "error: COMMAND: there is no command chek, and no file of that name; did you mean check?; \
-         allowed: a file; {commands}"
+         allowed: a file, or a command: {commands}"
     );
     assert!(done.stderr.starts_with(&text), "{}", done.stderr);
     for (wanted, near) in [
@@ -201,15 +201,82 @@ fn an_error_is_json_too_where_json_is_asked_for() {
 #[test]
 fn the_version_has_features_and_platform() {
     let bench = Bench::new();
-    let short = bench.succeed(&["-V"]);
-    assert_eq!(short.lines().count(), 1);
-    assert!(short.starts_with(concat!("motion-rtl ", env!("CARGO_PKG_VERSION"))));
     let long = bench.succeed(&["--version"]);
+    assert!(long.starts_with(concat!("motion-rtl ", env!("CARGO_PKG_VERSION"))));
+    assert_eq!(bench.succeed(&["-V"]), long);
+    assert_eq!(bench.succeed(&["--color", "never", "-V"]), long);
     for part in ["\ncommit: ", "\nfeatures: cli", "\nplatform: "] {
         assert!(long.contains(part), "{long}");
     }
     for feature in ["cli", "jit", "schema", "shell"] {
         assert!(long.contains(feature), "{long}");
+    }
+}
+
+#[test]
+fn quiet_prints_what_is_asked_for() {
+    let bench = Bench::with("line.hpgl", LINE);
+    for asked in [
+        &["list"][..],
+        &["list", "comparator"],
+        &["keys"],
+        &["keys", "machine"],
+        &["plan", "comparator", "--ticks", "10"],
+    ] {
+        let quiet = bench.succeed(&[asked, &["-q"]].concat());
+        assert!(quiet.lines().count() > 3, "{asked:?}: {quiet}");
+        assert_eq!(quiet, bench.succeed(asked), "{asked:?}");
+    }
+    bench.succeed(&[&["run", "line.hpgl", "--no-vcd", "--out", "o"], &SHORT[..]].concat());
+    let named = bench.succeed(&["clean", "o", "--dry-run", "-q"]);
+    assert!(named.starts_with("o/line.svg ("), "{named}");
+}
+
+#[test]
+fn commands_that_are_left_out_name_their_feature() {
+    let bench = Bench::new();
+    let commands = [
+        ("completions", "shell", cfg!(feature = "shell")),
+        ("man", "shell", cfg!(feature = "shell")),
+        ("schema", "schema", cfg!(feature = "schema")),
+    ];
+    for (command, feature, _) in commands.iter().filter(|(.., is_built)| !is_built) {
+        let text = format!(
+            "COMMAND: {command} is left out of this program; allowed: a program built with `cargo \
+             build --release --features {feature}`"
+        );
+        bench.refuse(&[command, "bash"], &text);
+        bench.refuse(&["-q", command], &text);
+    }
+    // A file of this name is run.
+    bench.write("man", LINE);
+    bench.refuse_with(&["man"], |said| {
+        assert!(said.starts_with("error: man: file: no extension"), "{said}");
+    });
+}
+
+#[test]
+fn a_name_that_is_empty_is_quoted() {
+    let bench = Bench::new();
+    for (words, start) in [
+        (&["list", ""][..], "CIRCUIT: there is no \"\"; allowed: "),
+        (&["check", ""], "CIRCUIT: there is no \"\"; allowed: "),
+        (&["keys", ""], "NAME: no job or circuit is called \"\"; "),
+        (&["run", "--set", ""], "--set: \"\": no '='; "),
+        (&["run", "--only", ""], "--only: there is no \"\"; "),
+        (
+            &["run", "--waves-of", ""],
+            "--waves-of: machine has no system \"\"; ",
+        ),
+        (
+            &[""],
+            "COMMAND: there is no command \"\", and no file of that name",
+        ),
+    ] {
+        bench.refuse_with(words, |said| {
+            let said = said.strip_prefix("error: ").unwrap();
+            assert!(said.starts_with(start), "{words:?}: {said}");
+        });
     }
 }
 
@@ -331,7 +398,7 @@ fn clean_removes_what_runs_have_made_and_nothing_else() {
     assert_eq!(done.code, 0);
     assert_eq!(
         done.stderr,
-        "warning: o/line.gtkw changed since: it stays\n"
+        "warning: o/line.gtkw has changed since it was written, and stays\n"
     );
     assert!(done.stdout.ends_with("removed 1 file\n"), "{}", done.stdout);
     assert_eq!(
@@ -347,7 +414,7 @@ fn clean_removes_what_runs_have_made_and_nothing_else() {
     fs::remove_file(bench.path("o/line.gtkw")).unwrap();
     assert_eq!(
         bench.succeed(&["clean", "o", "--yes"]),
-        "o has no files of runs\n"
+        "o has no files of this program\n"
     );
     bench.refuse(
         &["clean", "nowhere"],
@@ -371,7 +438,7 @@ fn a_list_names_files_of_its_directory_alone() {
     bench.write("o/.motion-rtl-written", lines.concat());
     assert_eq!(
         bench.succeed(&["clean", "o", "--yes"]),
-        "o has no files of runs\n"
+        "o has no files of this program\n"
     );
     assert_eq!(bench.read("victim/w.vcd"), "mine");
 
@@ -398,6 +465,6 @@ fn a_list_names_files_of_its_directory_alone() {
     bench.succeed(&run);
     assert_eq!(
         bench.succeed(&["clean", "o", "--yes"]),
-        "o has no files of runs\n"
+        "o has no files of this program\n"
     );
 }

@@ -84,7 +84,7 @@ fn help_and_version_go_to_standard_output() {
         assert!(flags.contains(flag), "{flag}: {flags}");
     }
     let version = concat!("motion-rtl ", env!("CARGO_PKG_VERSION"), "\n");
-    assert_eq!(bench.succeed(&["-V"]), version);
+    assert!(bench.succeed(&["-V"]).starts_with(version));
 }
 
 #[cfg(target_os = "linux")]

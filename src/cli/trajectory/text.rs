@@ -5,8 +5,9 @@ use super::runs::Run;
 use super::summary::Summary;
 use crate::cli::columns::Table;
 use crate::cli::report::{Outcome, Report};
-use crate::cli::rows::{fixed, fixed_or_dash, more, or_dash, plural, worst};
+use crate::cli::rows::{fixed, fixed_or_dash, more, or_dash, worst};
 use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
+use motion_rtl::input::counted;
 use motion_rtl::jobs::trajectory_controller::each_axis::EachAxis;
 use motion_rtl::settings::tidy;
 use std::fmt::{self, Write};
@@ -107,12 +108,12 @@ impl Summary<'_> {
             text,
             "path of {:.3} mm in {}, planned in {:.3} s at up to {} mm/s; {}",
             path.length_mm,
-            plural(path.segments, "segment"),
+            counted(path.segments, "segment"),
             plan.seconds,
             fixed(plan.speed_max_mm_per_s, 3),
             match plan.stops {
                 0 => "no stop".to_owned(),
-                stops => plural(stops, "stop"),
+                stops => counted(stops, "stop"),
             },
         )?;
         match plan.slowest_joint {

@@ -12,7 +12,7 @@
 //! [`StimulusFile`](crate::trace::StimulusFile) writes: the ports side by side, the first lowest,
 //! and the reset above them. Blank lines and lines that begin with `#` are skipped in both.
 
-use super::{Fault, Faults, LARGEST_FILE, brief, read_bytes};
+use super::{Fault, Faults, LARGEST_FILE, brief, counted, read_bytes};
 use crate::nearest::{meant, nearest};
 use crate::netlist::Shape;
 use std::ops::Range;
@@ -200,7 +200,7 @@ pub fn read_csv(file: &str, bytes: &[u8], ports: &[InputPort]) -> Result<PortInp
         let fields: Vec<Word<'_>> = line.fields().collect();
         let mut found = None;
         if fields.len() != columns.len() {
-            let problem = format!("{} fields", fields.len());
+            let problem = counted(fields.len(), "field");
             let allowed = format!("{} as in the head", columns.len());
             found = Some(source.fault(number, "line", &line.place, problem, allowed));
         }

@@ -87,7 +87,7 @@ fn lines_that_are_no_inputs_are_refused() {
     let bit = "allowed: 0 to 1, or bits as 0x1f and 0b101";
     let wide = "allowed: 0 to 18446744073709551615, or bits as 0x1f and 0b101";
     let expected = [
-        "a.csv:3: line: 1 fields; allowed: 2 as in the head [1]".to_owned(),
+        "a.csv:3: line: 1 field; allowed: 2 as in the head [1]".to_owned(),
         "a.csv:4: line: 3 fields; allowed: 2 as in the head [1,2,3]".to_owned(),
         format!("a.csv:5: column 1, push: is 'x'; {bit} [x]"),
         format!("a.csv:6: column 1, push: is ''; {bit} [,]"),
