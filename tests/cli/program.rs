@@ -418,7 +418,7 @@ fn clean_removes_what_runs_have_made_and_nothing_else() {
     );
     bench.refuse(
         &["clean", "nowhere"],
-        "DIR: nowhere is not a directory; allowed: the --out of a run",
+        "DIR: nowhere is not a directory; allowed: the --out of a command",
     );
 }
 

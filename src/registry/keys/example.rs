@@ -3,11 +3,10 @@
 use super::super::Pair;
 use super::super::entry::Entry;
 use super::super::reader::Kind;
-use super::{changed, elaborate, kind, kinds, read};
-use toml::Table;
+use super::{changed, elaborate, kind, kinds, leaf, names, read};
+use toml::{Table, Value};
 
-/// Sizes and lists, of which each name's keys take some.
-const SIZES: [i64; 2] = [1, 14];
+/// Lists, of which each name's keys take some.
 const LISTS: [&str; 3] = ["[]", "[0]", "[0, 0]"];
 
 /// Returns the name that a pair gives to its key, with the keys of this name: values with which the
@@ -19,12 +18,11 @@ pub(super) fn of_name(entry: &Entry, table: &Table, pair: &Pair) -> Option<Strin
     let path = format!("{key}.{name}");
     let mut kinds = kinds(entry, &bare).into_iter();
     let (_, of) = kinds.find(|(key, _)| *key == path)?;
-    let all = SIZES.iter().flat_map(|size| LISTS.map(|list| (size, list)));
-    let mut examples = all.filter_map(|(size, list)| {
+    let mut examples = LISTS.into_iter().filter_map(|list| {
         let tried = Tried {
             entry,
+            own: table,
             table: &bare,
-            size: *size,
             list,
         };
         let pair = with(&tried.value(&path, of)?);
@@ -38,16 +36,27 @@ pub(super) fn of_name(entry: &Entry, table: &Table, pair: &Pair) -> Option<Strin
 /// Values that are tried for the keys of a table.
 struct Tried<'a> {
     entry: &'a Entry,
+    /// Keys of the circuit.
+    own: &'a Table,
+    /// Keys with the other name.
     table: &'a Table,
-    size: i64,
     list: &'static str,
 }
 
 impl Tried<'_> {
+    /// Returns the size of the circuit that is called like a key, or 1.
+    fn size(&self, path: &str) -> i64 {
+        let last = path.rsplit('.').next();
+        let mut names = names(self.entry, self.own).into_iter();
+        let like = names.find(|name| name.rsplit('.').next() == last);
+        let size = like.and_then(|name| leaf(self.own, &name).and_then(Value::as_integer));
+        size.unwrap_or(1)
+    }
+
     /// Returns the value of a key of this kind, as TOML.
     fn value(&self, path: &str, of: Kind) -> Option<String> {
         Some(match of {
-            Kind::Size | Kind::Whole | Kind::Signed => self.size.to_string(),
+            Kind::Size | Kind::Whole | Kind::Signed => self.size(path).to_string(),
             Kind::Flag => "false".to_owned(),
             Kind::Name(names) => format!("\"{}\"", names.first()?),
             Kind::List => self.list.to_owned(),

@@ -134,8 +134,7 @@ fn exact_points_and_commands_of_the_arc_generator_stand_in_its_series() {
 /// Before the first sample the words are zero, wherever the path begins.
 #[test]
 fn rows_of_the_arc_generator_begin_with_the_first_sample() {
-    let text =
-        "circuit = \"arc_generator\"\nstart_mm = [10, 5, 2]\n[[piece]]\nto_mm = [11, 5, 3]\n";
+    let text = "circuit = \"arc_generator\"\nfeed_mm_per_min = 600\nstart_mm = [10, 5, 2]\n[[piece]]\nto_mm = [11, 5, 3]\n";
     let bench = Bench::with("s.toml", text);
     let (series, _) = series(&bench, &["s.toml", "--no-vcd", "--series-every", "7"]);
     let ticks = series.ticks();
