@@ -4,9 +4,9 @@ use super::invariant::stated;
 use crate::engine::Watch;
 use crate::hdl::{Circuit, Declaration, Value};
 use crate::netlist::Role;
-use crate::sim::{Elaborated, RunError};
+use crate::sim::{Described, Elaborated, RunError};
 use crate::trace::value::show;
-use crate::trace::{self, Clock};
+use crate::trace::{self, Clock, Start};
 use std::fmt::{self, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ const TICKS: usize = 8;
 /// Greatest number of signals in the table.
 const ROWS: usize = 40;
 
-/// Shortest input sequence that violates an invariant.
+/// Input sequence that violates an invariant; [`reach`](super::reach()) finds a shortest one.
 ///
 /// Prints the violation with its tick, and a table of the last ticks.
 pub struct Counterexample<C: Circuit> {
@@ -29,27 +29,85 @@ pub struct Counterexample<C: Circuit> {
     pub signals: Vec<String>,
     /// Description of the violation.
     pub message: String,
+    violation: Violation,
+}
+
+/// Counterexample without the circuit's type.
+#[derive(Clone)]
+pub struct Violation {
+    invariant: String,
+    fault: Fault,
     /// Inputs, port by port.
     ports: Vec<Vec<u64>>,
     table: String,
 }
 
-impl<C: Circuit> Counterexample<C> {
+impl Violation {
     pub(super) fn new(
         model: &Elaborated,
-        (inputs, ports): (Vec<C::In<Value>>, Vec<Vec<u64>>),
+        ports: Vec<Vec<u64>>,
         invariant: String,
         fault: Fault,
     ) -> Self {
-        let Fault { signals, message } = fault;
-        Counterexample {
-            tick: (ports.len() as u64).saturating_sub(1),
-            table: table(model, &ports, &signals),
-            inputs,
+        Violation {
+            table: table(model, &ports, &fault.signals),
             ports,
             invariant,
-            signals,
-            message,
+            fault,
+        }
+    }
+
+    /// Returns the words of the input ports from power-on; the last are those of the tick at fault.
+    pub fn inputs(&self) -> &[Vec<u64>] {
+        &self.ports
+    }
+
+    /// Returns the tick at fault.
+    pub fn tick(&self) -> u64 {
+        (self.ports.len() as u64).saturating_sub(1)
+    }
+
+    /// Replays the sequence on a circuit and writes the waves and their save file into `dir`, named
+    /// after circuit and invariant. Returns their paths.
+    ///
+    /// # Errors
+    /// Returns an error if the files cannot be written.
+    pub fn save(
+        &self,
+        circuit: &impl Described,
+        clock: Clock,
+        dir: &Path,
+    ) -> Result<Vec<PathBuf>, RunError> {
+        let model = circuit.described()?;
+        let stem = stem(model.name(), &self.invariant);
+        let inputs = &mut self.ports.iter().cloned();
+        trace::play(&model, Start::default(), inputs, clock, dir, &stem)
+    }
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Fault { signals, message } = &self.fault;
+        f.write_str(&report(self.tick(), &self.invariant, message, signals))?;
+        f.write_str(&self.table)
+    }
+}
+
+impl fmt::Debug for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl<C: Circuit> Counterexample<C> {
+    pub(super) fn of(violation: Violation, inputs: Vec<C::In<Value>>) -> Self {
+        Counterexample {
+            inputs,
+            tick: violation.tick(),
+            invariant: violation.invariant.clone(),
+            signals: violation.fault.signals.clone(),
+            message: violation.fault.message.clone(),
+            violation,
         }
     }
 
@@ -59,26 +117,13 @@ impl<C: Circuit> Counterexample<C> {
     /// # Errors
     /// Returns an error if the files cannot be written.
     pub fn save(&self, circuit: &C, clock: Clock, dir: &Path) -> Result<Vec<PathBuf>, RunError> {
-        let stem = stem(circuit.name(), &self.invariant);
-        trace::play(
-            &Elaborated::new(circuit)?,
-            &mut self.ports.iter().cloned(),
-            clock,
-            dir,
-            &stem,
-        )
+        self.violation.save(circuit, clock, dir)
     }
 }
 
 impl<C: Circuit> fmt::Display for Counterexample<C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&report(
-            self.tick,
-            &self.invariant,
-            &self.message,
-            &self.signals,
-        ))?;
-        f.write_str(&self.table)
+        fmt::Display::fmt(&self.violation, f)
     }
 }
 
@@ -89,7 +134,7 @@ impl<C: Circuit> fmt::Debug for Counterexample<C> {
 }
 
 /// Returns the stem of the file names.
-fn stem(circuit: &str, invariant: &str) -> String {
+pub(super) fn stem(circuit: &str, invariant: &str) -> String {
     format!("{circuit} {invariant}")
         .chars()
         .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })

@@ -3,11 +3,12 @@
 //! [`reach()`] visits every state that a circuit can reach from power-on under any input, and checks
 //! [`Invariants`] on every transition. At widths small enough for that to finish, it proves them
 //! for all input sequences of any length. [`sweep()`] checks a [`Law`] on every case of a finite
-//! space, for words that are too wide for that; it evaluates many cases at once. [`Monitor`]
-//! checks the same invariants along a simulated run, at any width. [`Pair`] and [`Lockstep`] turn
-//! the equivalence of two circuits into such an invariant. [`drive()`] runs a circuit on a random
-//! [`Stimulus`] and writes waves and stimulus, to compare it with another implementation such as
-//! its Verilog; [`Coverage`] tells which bits that run has moved.
+//! space, for words that are too wide for that; it evaluates many cases at once. [`induct()`]
+//! proves the properties that a circuit states in its own words at any width, by a SAT solver.
+//! [`Monitor`] checks the same invariants along a simulated run, at any width. [`Pair`] and
+//! [`Lockstep`] turn the equivalence of two circuits into such an invariant. [`drive()`] runs a
+//! circuit on a random [`Stimulus`] and writes waves and stimulus, to compare it with another
+//! implementation such as its Verilog; [`Coverage`] tells which bits that run has moved.
 //!
 //! # State of the past
 //!
@@ -62,6 +63,7 @@ mod counterexample;
 mod coverage;
 mod drive;
 mod enumerate;
+mod induct;
 mod invariant;
 mod lockstep;
 #[cfg(test)]
@@ -78,10 +80,12 @@ mod sweep;
 mod visited;
 
 pub use blamed::UnknownSignal;
-pub use counterexample::Counterexample;
+pub use counterexample::{Counterexample, Violation};
 pub use coverage::{Coverage, Untoggled};
 pub use drive::{Drive, Driven, drive, play};
 pub use enumerate::{CheckError, Random, TooWide, all};
+pub(crate) use induct::conclude;
+pub use induct::{By, Clause, Concluded, Conclusion, Induct, InductError, NotInductive, induct};
 pub use invariant::{Fault, Invariants, Monitor, Verdict, require};
 pub use lockstep::{Lockstep, LockstepError};
 pub use pair::{Pair, PairIn, Sides};

@@ -1,3 +1,4 @@
+use super::counterexample::Violation;
 use super::enumerate::scramble;
 use super::search::Report;
 use super::searching::{Ended, Judge, Next, Searching};
@@ -308,8 +309,8 @@ impl<'a, C: Circuit> Reach<'a, C> {
                         inputs.push(hdl::inputs(self.circuit, bits_of(searching.words[index])));
                         ports.push(searching.ports[index].clone());
                     }
-                    let found = Counterexample::new(&model, (inputs, ports), name, fault);
-                    Outcome::Counterexample(Box::new(found))
+                    let violation = Violation::new(&model, ports, name, fault);
+                    Outcome::Counterexample(Box::new(Counterexample::of(violation, inputs)))
                 }
             },
         )

@@ -1,4 +1,4 @@
-use super::Counterexample;
+use super::counterexample::{Counterexample, Violation};
 use super::{CheckError, Fault, TooWide};
 use crate::engine::sliced::{LANES, Run, Sliced};
 use crate::engine::{Engine, Watch, passes};
@@ -339,8 +339,8 @@ fn replayed<W: Law>(law: &W, model: &Elaborated, index: u64) -> Counterexample<W
     let ticks = 0..law.ticks();
     let inputs = ticks.clone().map(|_| hdl::inputs(law, bits_of(index)));
     let ports = ticks.map(|_| ports.clone());
-    let inputs = (inputs.collect(), ports.collect());
-    Counterexample::new(model, inputs, law.law().to_owned(), fault)
+    let violation = Violation::new(model, ports.collect(), law.law().to_owned(), fault);
+    Counterexample::of(violation, inputs.collect())
 }
 
 /// Returns the name of a port below the circuit's scope.

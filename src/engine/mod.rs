@@ -17,7 +17,7 @@ mod played;
 mod prediction;
 mod program;
 #[cfg(test)]
-mod random;
+pub(crate) mod random;
 mod report;
 mod run;
 mod saved;
@@ -29,7 +29,7 @@ mod unroll;
 mod value;
 
 pub use flat::EngineError;
-pub(crate) use flat::{Flat, Op};
+pub(crate) use flat::{Flat, Id, Op, Place, Port};
 pub use input::InputError;
 pub(crate) use layout::Spot;
 pub use played::Inputs;

@@ -5,6 +5,11 @@ use super::value;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
+/// Parts of which tests build netlists.
+pub(crate) mod parts {
+    pub(crate) use super::super::flat::{Flat, Memory, Node, Op, Place, Port, Register};
+}
+
 /// Circuit with a stimulus.
 #[derive(Debug, Clone)]
 pub(crate) struct Case {
@@ -311,8 +316,8 @@ impl Builder {
 pub(crate) struct Plain<'f> {
     flat: &'f Flat,
     pub inputs: Vec<u64>,
-    registers: Vec<u64>,
-    memories: Vec<Vec<u64>>,
+    pub registers: Vec<u64>,
+    pub memories: Vec<Vec<u64>>,
     nodes: Vec<u64>,
 }
 

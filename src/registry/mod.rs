@@ -20,6 +20,8 @@
 mod campaign;
 mod circuits;
 mod entry;
+#[cfg(test)]
+mod full_width;
 mod keys;
 mod listed;
 mod model;

@@ -1,6 +1,9 @@
 //! Circuits whose types are forgotten.
 
-use crate::check::{CheckError, Drive, Driven, Outcome, Progress, Proof, Specified, prove};
+use crate::check::{
+    CheckError, Concluded, Drive, Driven, InductError, Outcome, Progress, Proof, Specified,
+    Violation, conclude, prove,
+};
 use crate::engine::EngineError;
 use crate::hdl::{Circuit, Declarations};
 use crate::sim::{Elaborated, RunError};
@@ -9,6 +12,7 @@ use crate::trace::{Clock, Layout, LayoutError};
 use crate::verilog::{Connections, Verilog};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// A circuit, its type forgotten.
 pub trait AnyModel: Send + Sync {
@@ -82,6 +86,15 @@ impl dyn AnyModel + '_ {
     /// No netlist can be made of it.
     pub fn connections(&self) -> Result<Connections, EngineError> {
         Ok(Connections::of(self.model()?.design(), &self.outline()))
+    }
+
+    /// Proves its properties at its own widths, see [`induct`](crate::check::induct()). `limit` is
+    /// the time for each property.
+    ///
+    /// # Errors
+    /// No netlist can be made of it, or it has no properties.
+    pub fn induct(&self, limit: Duration) -> Result<Vec<Concluded<Violation>>, InductError> {
+        conclude(&self.model()?, limit)
     }
 
     /// Drives it with random inputs, see [`drive`](crate::check::drive()).

@@ -77,6 +77,8 @@ pub(crate) struct Layout {
     pub top: Scope,
     /// Selected output ports of the outermost circuit that has any selected.
     pub ports_out: Vec<usize>,
+    /// Remark at the head of the waves.
+    pub comment: Option<String>,
 }
 
 /// Scope with the selected leaves in it.
@@ -114,6 +116,7 @@ impl Layout {
             selected,
             top,
             ports_out,
+            comment: None,
         })
     }
 }

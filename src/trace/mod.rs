@@ -69,6 +69,7 @@ pub fn replay(
 ) -> Result<Vec<PathBuf>, RunError> {
     play(
         &circuit.described()?,
+        Start::default(),
         &mut inputs.into_iter(),
         clock,
         dir,
@@ -76,9 +77,19 @@ pub fn replay(
     )
 }
 
-/// Replays an elaborated circuit as [`replay`] does.
+/// Start of a replay: at power-on, except for some words.
+#[derive(Debug, Default, Clone, Copy)]
+pub(crate) struct Start<'a> {
+    /// Words of registers and memories, by leaf.
+    pub state: &'a [(usize, u64)],
+    /// Remark at the head of the waves.
+    pub comment: Option<&'a str>,
+}
+
+/// Replays an elaborated circuit as [`replay`] does, from any state.
 pub(crate) fn play(
     model: &Elaborated,
+    start: Start<'_>,
     inputs: &mut dyn Iterator<Item = Vec<u64>>,
     clock: Clock,
     dir: &Path,
@@ -88,10 +99,17 @@ pub(crate) fn play(
     let _directory = Directory::create(dir)?;
     let mut dump = AtomicFile::create(dir.join(&name))?;
     let leaves = model.declarations().leaves.clone();
-    let layout = Layout::new(model.name(), leaves, None).map_err(io::Error::from)?;
+    let mut layout = Layout::new(model.name(), leaves, None).map_err(io::Error::from)?;
+    layout.comment = start.comment.map(str::to_owned);
     let file = VcdFile::new(&mut dump, &layout, clock);
     let mut waves = Dump::new(&layout, clock, &Options::default(), file);
     let mut engine = model.engine(Watch::All);
+    for &(leaf, word) in start.state {
+        engine.set_leaf(leaf, word);
+    }
+    if !start.state.is_empty() {
+        engine.wake();
+    }
     let mut ticks = 0;
     let ports = model.ports();
     for i in inputs {

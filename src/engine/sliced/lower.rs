@@ -4,6 +4,7 @@ use super::NotSliced;
 use super::gates::{Gates, HIGH, LOW, Wire};
 use super::state::State;
 use crate::engine::flat::{Flat, Id, Op, Place, Port};
+use rustc_hash::FxHashMap;
 
 /// Greatest number of gates; larger circuits do not pay.
 const MOST: usize = 1 << 22;
@@ -15,14 +16,19 @@ pub struct Lowering<'f> {
     ports: Vec<u32>,
     /// Registers and memories, if they are bits of a case too.
     state: Option<State>,
+    /// Gates, those of the nodes among them.
     pub gates: Gates,
     words: Vec<Vec<Wire>>,
+    /// First bit of a case that nothing uses.
+    pub unused: u32,
+    /// Reads that may give any word, by memory and address.
+    reads: FxHashMap<(u32, Vec<Wire>), Vec<Wire>>,
 }
 
 /// Returns the gates of a combinational netlist, and the wires of its leaves that are not input
 /// ports, in order.
 pub fn lowered(flat: &Flat) -> Result<(Gates, Vec<Wire>), NotSliced> {
-    let mut lowering = Lowering::of(flat, None, 0, Gates::new())?;
+    let mut lowering = Lowering::of(flat, None, 0, Gates::new(), &|_| true)?;
     let mut out = Vec::new();
     for place in &flat.leaves[flat.parts[0]..] {
         match *place {
@@ -62,12 +68,14 @@ fn in_order(word: &[Wire]) -> Vec<Wire> {
 }
 
 impl<'f> Lowering<'f> {
-    /// Converts all nodes; input ports are the bits of a case from `first` on.
+    /// Converts all nodes in the cone; others have no wires. Input ports are the bits of a case from
+    /// `first` on.
     pub fn of(
         flat: &'f Flat,
         state: Option<State>,
         first: u32,
         gates: Gates,
+        cone: &dyn Fn(Id) -> bool,
     ) -> Result<Self, NotSliced> {
         let mut bits = first;
         let ports = flat.inputs.iter().map(|&width| {
@@ -80,9 +88,14 @@ impl<'f> Lowering<'f> {
             state,
             gates,
             words: Vec::with_capacity(flat.nodes.len()),
+            unused: bits,
+            reads: FxHashMap::default(),
         };
         for id in 0..flat.nodes.len() as Id {
-            let word = lowering.node(id)?;
+            let word = match cone(id) {
+                true => lowering.node(id)?,
+                false => Vec::new(),
+            };
             lowering.words.push(word);
             if lowering.gates.gates.len() > MOST {
                 return Err(NotSliced);
@@ -91,11 +104,18 @@ impl<'f> Lowering<'f> {
         Ok(lowering)
     }
 
+    /// Returns the wires of a node.
     pub fn word(&self, id: Id) -> &[Wire] {
         &self.words[id as usize]
     }
 
-    fn port(&mut self, port: u32) -> Vec<Wire> {
+    /// Returns the netlist.
+    pub fn flat(&self) -> &'f Flat {
+        self.flat
+    }
+
+    /// Returns the wires of an input port.
+    pub fn port(&mut self, port: u32) -> Vec<Wire> {
         let first = self.ports[port as usize];
         let bits = first..first + u32::from(self.flat.inputs[port as usize]);
         bits.map(|bit| self.gates.input(bit)).collect()
@@ -155,13 +175,24 @@ impl<'f> Lowering<'f> {
                 let memory = &self.flat.memories[number as usize];
                 match (memory.port, &self.state) {
                     (Port::Rom, _) => gates.table(&memory.contents, word(address), memory.width),
-                    (_, Some(state)) => {
-                        let words = &state.memories[number as usize];
-                        let column = |bit: usize| words.iter().map(|word| word[bit]).collect();
-                        (0..width)
-                            .map(|bit| gates.choose(column(bit), word(address)))
-                            .collect()
-                    }
+                    (_, Some(state)) => match &state.memories[number as usize] {
+                        Some(words) => {
+                            let column = |bit: usize| words.iter().map(|word| word[bit]).collect();
+                            (0..width)
+                                .map(|bit| gates.choose(column(bit), word(address)))
+                                .collect()
+                        }
+                        None => {
+                            let read = (number, word(address).to_vec());
+                            let first = self.unused;
+                            let any = self.reads.entry(read).or_insert_with(|| {
+                                self.unused = first + width as u32;
+                                let bits = first..self.unused;
+                                bits.map(|bit| gates.input(bit)).collect()
+                            });
+                            any.clone()
+                        }
+                    },
                     (_, None) => return Err(NotSliced),
                 }
             }

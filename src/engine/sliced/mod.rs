@@ -3,9 +3,9 @@
 //!
 //! Words may have any width, and operations that only move bits cost nothing.
 
-mod gates;
-mod lower;
-mod state;
+pub(crate) mod gates;
+pub(crate) mod lower;
+pub(crate) mod state;
 mod steps;
 #[cfg(test)]
 mod tests;

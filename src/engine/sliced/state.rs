@@ -6,12 +6,12 @@ use super::lower::Lowering;
 use crate::engine::flat::{Flat, Place, Port};
 
 /// Wires of a circuit's state.
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub struct State {
-    /// Wires of each register.
+    /// Wires of each register; none outside the cone.
     pub registers: Vec<Vec<Wire>>,
-    /// Wires of each memory, by address; empty for a ROM.
-    pub memories: Vec<Vec<Vec<Wire>>>,
+    /// Wires of each memory, by address; empty for a ROM. `None` if a read may give any word.
+    pub memories: Vec<Option<Vec<Vec<Wire>>>>,
 }
 
 impl State {
@@ -23,8 +23,8 @@ impl State {
                 .memories
                 .iter()
                 .map(|memory| match memory.port {
-                    Port::Rom => Vec::new(),
-                    _ => vec![Vec::new(); memory.contents.len()],
+                    Port::Rom => Some(Vec::new()),
+                    _ => Some(vec![Vec::new(); memory.contents.len()]),
                 })
                 .collect(),
         };
@@ -42,8 +42,8 @@ impl State {
                 }
                 Place::Word(memory, word) => {
                     let width = flat.memories[memory as usize].width;
-                    let words = &mut state.memories[memory as usize];
-                    if let Some(wires) = words.get_mut(word as usize) {
+                    let words = state.memories[memory as usize].as_mut();
+                    if let Some(wires) = words.and_then(|words| words.get_mut(word as usize)) {
                         *wires = bits(width);
                     }
                 }
@@ -64,6 +64,59 @@ fn held(flat: &Flat) -> impl Iterator<Item = Place> + '_ {
     leaves.iter().copied().filter(move |place| !rom(place))
 }
 
+/// Returns the state after the edge of a tick that starts in `before`.
+pub fn after(lowering: &mut Lowering<'_>, before: &State) -> State {
+    let flat = lowering.flat();
+    let registers = flat.registers.iter();
+    let registers = registers.map(|register| lowering.word(register.next).to_vec());
+    let registers = registers.collect();
+    let memories = flat.memories.iter().zip(&before.memories);
+    let memories = memories.map(|(memory, words)| {
+        let words = words.as_ref()?;
+        Some(match memory.port {
+            _ if words.is_empty() => Vec::new(),
+            Port::Rom => Vec::new(),
+            Port::Ram {
+                enable,
+                address,
+                data,
+            } => {
+                let enable = lowering.word(enable)[0];
+                let [address, data] = [address, data].map(|id| lowering.word(id).to_vec());
+                let gates = &mut lowering.gates;
+                let words = words.iter().enumerate().map(|(word, held)| {
+                    let here = gates.is(&address, word as u64);
+                    let here = gates.and(enable, here);
+                    chosen(gates, here, &data, held)
+                });
+                words.collect()
+            }
+            Port::Shift { enable, data } => {
+                let enable = lowering.word(enable)[0];
+                let data = lowering.word(data).to_vec();
+                let before = std::iter::once(&data).chain(words);
+                let gates = &mut lowering.gates;
+                let words = before.zip(words);
+                words
+                    .map(|(data, held)| chosen(gates, enable, data, held))
+                    .collect()
+            }
+        })
+    });
+    State {
+        registers,
+        memories: memories.collect(),
+    }
+}
+
+/// Returns the first word if `choose` is high, else the second.
+fn chosen(gates: &mut Gates, choose: Wire, then: &[Wire], other: &[Wire]) -> Vec<Wire> {
+    let pairs = then.iter().zip(other);
+    pairs
+        .map(|(&then, &other)| gates.mux(choose, then, other))
+        .collect()
+}
+
 /// Tick as gates.
 pub struct Edge {
     pub gates: Gates,
@@ -77,43 +130,16 @@ pub struct Edge {
 pub fn tick(flat: &Flat, properties: [&[usize]; 2], inputs: u32) -> Result<Edge, NotSliced> {
     let mut gates = Gates::new();
     let before = State::of(flat, &mut gates);
-    let mut lowering = Lowering::of(flat, Some(before.clone()), inputs, gates)?;
+    let state = Some(before.clone());
+    let mut lowering = Lowering::of(flat, state, inputs, gates, &|_| true)?;
+    let after = after(&mut lowering, &before);
     let mut out = Vec::new();
     for place in held(flat) {
         match place {
-            Place::Register(register) => {
-                let next = flat.registers[register as usize].next;
-                out.extend_from_slice(lowering.word(next));
-            }
+            Place::Register(register) => out.extend(&after.registers[register as usize]),
             Place::Word(memory, word) => {
-                let words = &before.memories[memory as usize];
-                let held = &words[word as usize];
-                let port = flat.memories[memory as usize].port;
-                let (enable, data) = match port {
-                    Port::Rom => continue,
-                    Port::Ram {
-                        enable,
-                        address,
-                        data,
-                    } => {
-                        let address = lowering.word(address).to_vec();
-                        let enable = lowering.word(enable)[0];
-                        let here = lowering.gates.is(&address, word.into());
-                        let enable = lowering.gates.and(enable, here);
-                        (enable, lowering.word(data).to_vec())
-                    }
-                    Port::Shift { enable, data } => {
-                        let enable = lowering.word(enable)[0];
-                        let data = match word.checked_sub(1) {
-                            None => lowering.word(data).to_vec(),
-                            Some(before) => words[before as usize].clone(),
-                        };
-                        (enable, data)
-                    }
-                };
-                for (&data, &held) in data.iter().zip(held) {
-                    out.push(lowering.gates.mux(enable, data, held));
-                }
+                let words = after.memories[memory as usize].as_ref();
+                out.extend(&words.ok_or(NotSliced)?[word as usize]);
             }
             Place::Node(_) | Place::Input(_) => {}
         }

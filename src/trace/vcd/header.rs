@@ -19,6 +19,9 @@ pub fn header(
     let mut out = vcd::Writer::new(out);
     out.version(concat!("motion-rtl ", env!("CARGO_PKG_VERSION")))?;
     out.comment(&clock.to_string())?;
+    if let Some(comment) = &layout.comment {
+        out.comment(comment)?;
+    }
     if !layout.ports_out.is_empty() {
         let paths = layout
             .ports_out

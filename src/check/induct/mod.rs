@@ -1,0 +1,271 @@
+//! Proofs of the properties of a circuit at any width, by a SAT solver.
+//!
+//! [`induct`] proves the [properties](crate::hdl::Circuit::properties) of a circuit for every run
+//! from power-on, under every input, at the widths of the circuit. It does not visit states as
+//! [`reach`](super::reach()) does:
+//!
+//! 1. A property that no state violates, reachable or not, is proved at once.
+//! 2. Induction: if all properties hold in k ticks, they hold in the next one; and they hold in the
+//!    first k ticks from power-on. Tried for k from 1 to 4. A property that fails is left out.
+//! 3. A search for each property that is left (IC3, also called property-directed reachability): it
+//!    collects clauses that hold in every reachable state, until the property follows from them.
+//!
+//! Statements that are [given](crate::hdl::Property::given) are assumed in every tick; those that
+//! only [narrow](crate::hdl::Property::narrowing) an exhaustive search are not.
+//!
+//! Nothing is taken on trust: a solver of its own checks each proof again, and an engine replays
+//! each counterexample.
+
+mod certify;
+mod clauses;
+mod conclusion;
+mod frames;
+mod not_inductive;
+mod prover;
+mod search;
+#[cfg(test)]
+mod tests;
+mod unrolled;
+
+pub use conclusion::{By, Concluded, Conclusion, InductError};
+pub use not_inductive::{Clause, NotInductive};
+
+use super::counterexample::Violation;
+use super::{Counterexample, Fault};
+use crate::engine::Watch;
+use crate::hdl::{self, Circuit};
+use crate::netlist::Claim;
+use crate::sim::Elaborated;
+use prover::{Basis, Found, Results, Task};
+use std::fmt;
+use std::time::Duration;
+
+/// Time for a property by default.
+const LIMIT: Duration = Duration::from_secs(10);
+
+/// Greatest size of all memories in bits whose words are state.
+const MEMORY_BITS: usize = 1 << 17;
+
+/// Prepared proof; see [`induct`].
+#[must_use = "nothing is proved before it runs"]
+pub struct Induct<'a, C: Circuit> {
+    circuit: &'a C,
+    limit: Duration,
+    model: Option<Elaborated>,
+}
+
+/// Prepares proofs of the properties of a circuit at its own widths.
+///
+/// ```
+/// use motion_rtl::check::{By, Conclusion, induct};
+/// use motion_rtl::prelude::*;
+///
+/// /// Counts to 999,999 and starts again.
+/// #[derive(Debug, Clone)]
+/// struct Wrap;
+///
+/// signals! { for Wrap as _c;
+///     pub struct In { pub go: Bit }
+///     pub struct Reg { pub count: U(20) = 0 }
+/// }
+///
+/// impl Circuit for Wrap {
+///     const NAME: &'static str = "wrap";
+///     const ABOUT: &'static str = "counts to 999,999";
+///     records!(In, Reg, Nothing);
+///
+///     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Nothing, Reg<Edge>) {
+///         let next = q.count.is(999_999).mux(0, q.count + 1);
+///         (Nothing, Reg { count: i.go.mux(next, q.count) })
+///     }
+///
+///     fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+///         vec![Property::always("it stays below a million", &["count"], now.q.count.below(1_000_000))]
+///     }
+/// }
+///
+/// let results = induct(&Wrap).run()?;
+/// let proof = &results[0].conclusion;
+/// assert!(matches!(proof, Conclusion::Proof { by: By::Induction(1), .. }), "{proof:?}");
+/// # Ok::<(), motion_rtl::check::InductError>(())
+/// ```
+#[must_use = "nothing is proved before it runs"]
+pub fn induct<C: Circuit>(circuit: &C) -> Induct<'_, C> {
+    Induct {
+        circuit,
+        limit: LIMIT,
+        model: None,
+    }
+}
+
+impl<C: Circuit> Induct<'_, C> {
+    /// Limits the time for each property; 10 seconds by default. A check of its proof may take
+    /// four times as long.
+    pub fn limit(mut self, limit: Duration) -> Self {
+        self.limit = limit;
+        self
+    }
+
+    /// Proves the properties of this netlist of the circuit: one that was elaborated before, or that
+    /// has a fault.
+    pub fn model(mut self, model: Elaborated) -> Self {
+        self.model = Some(model);
+        self
+    }
+
+    /// Proves the properties; returns one result for each, in their order.
+    ///
+    /// # Errors
+    /// Returns an error if the circuit cannot be elaborated or has no properties.
+    pub fn run(self) -> Result<Vec<Concluded<Counterexample<C>>>, InductError> {
+        let model = match self.model {
+            Some(model) => model,
+            None => Elaborated::new(self.circuit)?,
+        };
+        let mut all = Vec::new();
+        for concluded in conclude(&model, self.limit)? {
+            let conclusion = concluded.conclusion.map(|violation| {
+                let mut inputs = Vec::new();
+                for ports in violation.inputs() {
+                    let mut words = ports.iter().copied();
+                    let word = |_| words.next().unwrap_or(0);
+                    inputs.push(hdl::inputs(self.circuit, word));
+                }
+                Counterexample::of(violation, inputs)
+            });
+            all.push(Concluded {
+                property: concluded.property,
+                is_helper: concluded.is_helper,
+                conclusion,
+                time: concluded.time,
+            });
+        }
+        Ok(all)
+    }
+}
+
+impl<C: Circuit> fmt::Debug for Induct<'_, C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Induct")
+            .field("circuit", &C::NAME)
+            .field("limit", &self.limit)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Proves the properties of an elaborated circuit.
+///
+/// # Errors
+/// Returns an error if the circuit has no properties.
+pub(crate) fn conclude(
+    model: &Elaborated,
+    limit: Duration,
+) -> Result<Vec<Concluded<Violation>>, InductError> {
+    let circuit = || model.name().to_owned();
+    let module = model.design().modules.last();
+    let stated = module.map_or(&[][..], |module| &module.assertions);
+    let of = |is: fn(Claim) -> bool| {
+        let all = stated.iter().enumerate();
+        all.filter(move |(_, it)| is(it.claim))
+            .map(|(index, _)| index)
+    };
+    let task = Task {
+        flat: model.flat(),
+        properties: of(Claim::is_proved).collect(),
+        givens: of(|claim| claim == Claim::Given).collect(),
+        memory_bits: MEMORY_BITS,
+        limit,
+    };
+    if task.properties.is_empty() {
+        return Err(InductError::NoProperties { circuit: circuit() });
+    }
+    let results = prover::prove(&task);
+    let unconfirmed = |property: usize, result| InductError::Unconfirmed {
+        circuit: circuit(),
+        property: stated[property].name.to_owned(),
+        result,
+    };
+    let Results {
+        found,
+        is_abstract,
+        refused,
+        dead,
+    } = results;
+    if let Some(tick) = dead {
+        let circuit = circuit();
+        return Err(InductError::Contradiction { circuit, tick });
+    }
+    if let Some(&property) = refused.first() {
+        return Err(unconfirmed(property, "the proof"));
+    }
+    let mut all = Vec::new();
+    for (&property, (found, time)) in task.properties.iter().zip(found) {
+        let name = stated[property].name;
+        let conclusion = match found {
+            Found::TooLarge => Conclusion::TooLarge,
+            Found::Open(never, from) => {
+                let property = (property, name);
+                let from = from.and_then(|from| NotInductive::new(model, property, &from, &never));
+                let from = from.map(Box::new);
+                Conclusion::Open { from }
+            }
+            Found::Proved(grounds) => {
+                let with = grounds.with.iter();
+                Conclusion::Proof {
+                    with: with.map(|&lemma| stated[lemma].name.to_owned()).collect(),
+                    by: match grounds.basis {
+                        Basis::EveryState => By::EveryState,
+                        Basis::Induction(ticks) => By::Induction(ticks),
+                        Basis::Search(never) => By::Search {
+                            clauses: never.iter().map(|it| Clause::new(model, it)).collect(),
+                        },
+                    },
+                }
+            }
+            Found::Violated(mut inputs) => match replay(model, &inputs, property, &task.givens) {
+                Some(ticks) => {
+                    inputs.truncate(ticks);
+                    let signals = stated[property].signals.iter();
+                    let fault = Fault {
+                        signals: signals.map(|&signal| signal.to_owned()).collect(),
+                        message: "does not hold".to_owned(),
+                    };
+                    Conclusion::Refuted(Violation::new(model, inputs, name.to_owned(), fault))
+                }
+                None if is_abstract => Conclusion::Open { from: None },
+                None => return Err(unconfirmed(property, "the counterexample")),
+            },
+        };
+        all.push(Concluded {
+            property: name.to_owned(),
+            is_helper: stated[property].claim == Claim::Helper,
+            conclusion,
+            time,
+        });
+    }
+    Ok(all)
+}
+
+/// Runs the circuit from power-on; returns the number of ticks after which the property is violated
+/// for the first time, if the inputs keep the givens so far.
+fn replay(
+    model: &Elaborated,
+    inputs: &[Vec<u64>],
+    property: usize,
+    givens: &[usize],
+) -> Option<usize> {
+    let mut engine = model.engine(Watch::All);
+    engine.interpret();
+    for (tick, ports) in inputs.iter().enumerate() {
+        engine.drive_all(ports);
+        engine.settle();
+        if givens.iter().any(|&given| !engine.property(given)) {
+            return None;
+        }
+        if !engine.property(property) {
+            return Some(tick + 1);
+        }
+        engine.edge();
+    }
+    None
+}

@@ -1,0 +1,83 @@
+//! Questions about the ticks of a netlist.
+
+use super::clauses::{Answer, Clauses};
+use super::frames::{Cone, Frames, Start};
+use crate::engine::Flat;
+use crate::engine::sliced::NotSliced;
+use crate::engine::sliced::gates::Wire;
+use batsat::Lit;
+use std::time::Instant;
+
+/// Property in a tick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct At {
+    pub property: usize,
+    pub tick: usize,
+}
+
+/// Ticks from a state on, and a solver of their own.
+pub(super) struct Unrolled<'f> {
+    pub frames: Frames<'f>,
+    pub clauses: Clauses,
+}
+
+impl<'f> Unrolled<'f> {
+    pub fn new(flat: &'f Flat, cone: &'f Cone, start: Start) -> Self {
+        Unrolled {
+            frames: Frames::new(flat, cone, start),
+            clauses: Clauses::new(),
+        }
+    }
+
+    /// Returns the literal that is high if a property holds in a tick.
+    pub fn holds(&mut self, at: At) -> Result<Lit, NotSliced> {
+        let (frame, gates) = self.frames.tick(at.tick)?;
+        Ok(self.clauses.lit(gates, frame.properties[at.property]))
+    }
+
+    /// Searches for ticks in which `held` hold and `violated` does not.
+    pub fn violate(
+        &mut self,
+        violated: At,
+        held: &[At],
+        until: Instant,
+    ) -> Result<Answer, NotSliced> {
+        let mut assumed = Vec::new();
+        for &at in held {
+            assumed.push(self.holds(at)?);
+        }
+        assumed.push(!self.holds(violated)?);
+        Ok(self.clauses.solve(&assumed, until))
+    }
+
+    /// Returns those of `held` that the last answer needed.
+    pub fn needed(&mut self, held: &[At]) -> Result<Vec<At>, NotSliced> {
+        let mut needed = Vec::new();
+        for &at in held {
+            let lit = self.holds(at)?;
+            if self.clauses.is_needed(lit) {
+                needed.push(at);
+            }
+        }
+        Ok(needed)
+    }
+
+    /// Returns the words of the input ports in the first `ticks` ticks of the assignment found last.
+    pub fn inputs(&mut self, ticks: usize) -> Result<Vec<Vec<u64>>, NotSliced> {
+        let mut inputs = Vec::new();
+        for tick in 0..ticks {
+            let (frame, _) = self.frames.tick(tick)?;
+            let ports = frame.ports.iter();
+            inputs.push(ports.map(|word| number(&self.clauses, word)).collect());
+        }
+        Ok(inputs)
+    }
+}
+
+/// Returns the number on a word in the assignment found last.
+pub(super) fn number(clauses: &Clauses, word: &[Wire]) -> u64 {
+    let bits = word.iter().enumerate();
+    bits.fold(0, |number, (bit, &wire)| {
+        number | u64::from(clauses.is_high(wire)) << bit
+    })
+}
