@@ -30,7 +30,9 @@ Examples:
 pub const CHECK: &str = "\
 Examples:
   motion-rtl check unit_law sync_stage
-  motion-rtl check unit_law --json";
+  motion-rtl check unit_law --json
+  motion-rtl check sequencer --full                              at the widths that ship
+  motion-rtl check pulse_generator --full --set variant=literal  refuted, with waves";
 
 pub const MUTATE: &str = "\
 Examples:

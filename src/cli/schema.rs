@@ -78,6 +78,7 @@ fn of_all() -> Value {
         of::<machine::Summary>("machine", Some("machine")),
         of::<waves_of::Summary>("waves_of", None),
         of::<check::Report>("check", None),
+        of::<check::FullReport>("check_full", None),
         of::<errors::Output<'_>>("error", None),
     ];
     let references = kinds

@@ -1,5 +1,6 @@
 //! `check`: proofs and sweeps, in one table.
 
+mod full;
 mod parts;
 mod report;
 mod shard;
@@ -9,6 +10,7 @@ mod work;
 use super::chosen::Changes;
 use super::{Failure, json, print};
 use clap::Args;
+pub use full::FullReport;
 use report::Asked;
 pub use report::Report;
 use shard::Shard;
@@ -25,6 +27,12 @@ pub struct Arguments {
     /// States after which a proof is given up.
     #[arg(long, value_name = "STATES", allow_negative_numbers = true, default_value_t = 1 << 26)]
     limit: u32,
+    /// Proves each property at the circuit's own widths, by induction and a search for invariants.
+    #[arg(long, conflicts_with_all = ["limit", "shard"])]
+    full: bool,
+    /// Seconds for each property at full width.
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, requires = "full", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    limit_seconds: u64,
     /// Directory for the waves of a counterexample.
     #[arg(long, value_name = "DIR", default_value = "waves")]
     out: PathBuf,
@@ -36,7 +44,7 @@ pub struct Arguments {
         long,
         value_name = "FILES",
         num_args = 1..,
-        conflicts_with_all = ["circuits", "set", "width", "limit", "out", "shard"]
+        conflicts_with_all = ["circuits", "set", "width", "limit", "out", "shard", "full"]
     )]
     merge: Vec<PathBuf>,
     /// Prints the table as JSON.
@@ -46,6 +54,19 @@ pub struct Arguments {
 
 /// Proves and sweeps, or puts together what was proved and swept elsewhere.
 pub fn check(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.full {
+        let asked = full::Asked {
+            circuits: arguments.circuits.clone(),
+            changes: arguments.changes.clone(),
+            limit_seconds: arguments.limit_seconds,
+        };
+        let report = full::run(asked, &arguments.out)?;
+        match arguments.json {
+            true => json::print_alone(&report)?,
+            false => print(&report.table())?,
+        }
+        return report.faults();
+    }
     let report = if arguments.merge.is_empty() {
         let asked = Asked {
             circuits: arguments.circuits.clone(),
