@@ -10,6 +10,7 @@ mod arc_refusals;
 mod beside;
 mod check_parts;
 mod checks;
+mod checks_full;
 mod colors;
 #[cfg(unix)]
 mod commands;

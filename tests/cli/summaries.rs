@@ -189,6 +189,30 @@ fn the_report_of_a_check_is_that_of_the_schema() {
     }
 }
 
+#[test]
+fn the_report_of_proofs_at_full_width_is_that_of_the_schema() {
+    let (bench, schema) = (Bench::new(), schema());
+    let proof = ["check", "enable_counter", "--full"];
+    let literal = [
+        "check",
+        "pulse_generator",
+        "--full",
+        "--set",
+        "variant=literal",
+        "--limit-seconds",
+        "1",
+    ];
+    for arguments in [&proof[..], &literal] {
+        let done = bench.run(&[arguments, &["--json"]].concat());
+        let mut report: Value = serde_json::from_str(&done.stdout).expect("one value");
+        let judged = judge_as(&schema, "check_full", &report);
+        assert_eq!(judged, [""; 0], "{arguments:?}");
+        report["rows"][0]["full_width_by"] = json!("proved");
+        let judged = judge_as(&schema, "check_full", &report);
+        assert_eq!(judged.len(), 1, "{arguments:?}");
+    }
+}
+
 /// Whatever is printed as JSON has the same version.
 #[test]
 fn every_json_has_the_version() {

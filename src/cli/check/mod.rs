@@ -10,6 +10,7 @@ mod work;
 use super::chosen::Changes;
 use super::{Failure, json, print};
 use clap::Args;
+#[cfg(feature = "schema")]
 pub use full::FullReport;
 use report::Asked;
 pub use report::Report;

@@ -1,0 +1,136 @@
+//! `check --full`: properties at the widths of the full circuits.
+
+use super::support::{Bench, keys, list};
+use predicates::prelude::*;
+use serde_json::json;
+
+#[test]
+fn properties_are_proved_at_full_width() {
+    let bench = Bench::new();
+    let text = bench.succeed(&["check", "sync_stage", "pulse_generator", "--full"]);
+    let row = |property: &str| {
+        let row = text.lines().find(|row| row.ends_with(property));
+        row.unwrap_or_else(|| panic!("{text}")).to_owned()
+    };
+    let [first, second] = ["step is low in the tick after RST", "and only there"].map(row);
+    assert!(
+        first.starts_with("sync_stage") && first.contains("every state"),
+        "{text}"
+    );
+    assert!(
+        second.starts_with("pulse_generator           16 induction 1"),
+        "{text}"
+    );
+    assert!(bench.names().is_empty(), "a proof writes nothing");
+}
+
+#[test]
+fn what_is_refuted_fails_and_what_is_open_is_said() {
+    let bench = Bench::new();
+    let arguments = [
+        "check",
+        "pulse_generator",
+        "--full",
+        "--set",
+        "variant=literal",
+        "--limit-seconds",
+        "1",
+        "--out",
+        "found",
+    ];
+    let open = "is not inductive: from count = 65534";
+    bench
+        .command(&arguments)
+        .assert()
+        .code(1)
+        .stdout(predicate::str::contains("REFUTED").and(predicate::str::contains(open)))
+        .stderr(predicate::str::starts_with("error: pulse_generator: tick "));
+    let names: Vec<_> = std::fs::read_dir(bench.path("found"))
+        .expect("it is there")
+        .map(|entry| {
+            entry
+                .expect("a file")
+                .file_name()
+                .into_string()
+                .expect("a name")
+        })
+        .collect();
+    let has = |name: &str| names.iter().any(|other| other == name);
+    assert!(
+        has("pulse_generator_RST_clears_count_and_toggle.vcd"),
+        "{names:?}"
+    );
+    let open = "pulse_generator_count_never_reaches_its_greatest_value_induction";
+    assert!(
+        has(&format!("{open}.vcd")) && has(&format!("{open}.gtkw")),
+        "{names:?}"
+    );
+}
+
+#[test]
+fn results_at_full_width_are_printed_as_json() {
+    let report = Bench::new().json(&["check", "enable_counter", "--full"]);
+    let expected = [
+        "asked",
+        "program_version",
+        "rows",
+        "version",
+        "without_properties",
+    ];
+    assert_eq!(keys(&report), expected);
+    assert_eq!(report["asked"]["limit_seconds"], 10);
+    let rows = list(&report, "rows");
+    assert!(rows.len() >= 4, "{report}");
+    for row in rows {
+        assert_eq!(row["widths"], json!({"width": 24}));
+        let by = row["full_width_by"].as_str().expect("a text");
+        assert!(["every_state", "induction"].contains(&by), "{row}");
+        assert_eq!(
+            row["ticks"],
+            if by == "induction" {
+                json!(1)
+            } else {
+                json!(null)
+            }
+        );
+    }
+}
+
+#[test]
+fn a_width_may_be_set() {
+    let text = Bench::new().succeed(&["check", "enable_counter", "--full", "--width", "64"]);
+    assert!(
+        text.contains("enable_counter            64 induction 1"),
+        "{text}"
+    );
+}
+
+#[test]
+fn what_full_width_does_not_go_with_is_refused() {
+    let bench = Bench::new();
+    for (arguments, text) in [
+        (
+            &["check", "machine", "--full"][..],
+            "machine has no properties",
+        ),
+        (
+            &["check", "sync_stage", "--full", "--shard", "1/2"],
+            "cannot be used with",
+        ),
+        (
+            &["check", "sync_stage", "--full", "--limit", "5"],
+            "cannot be used with",
+        ),
+        (&["check", "sync_stage", "--limit-seconds", "5"], "--full"),
+        (
+            &["check", "sync_stage", "--full", "--limit-seconds", "0"],
+            "0",
+        ),
+    ] {
+        bench
+            .command(arguments)
+            .assert()
+            .code(2)
+            .stderr(predicate::str::contains(text));
+    }
+}
