@@ -18,7 +18,8 @@ pub use ports::PortList;
 pub use words::{Place, PortWords};
 
 use crate::netlist::Shape;
-use crate::sim::{Model, PortDirection};
+use crate::sim::{Model, ModelError, PortDirection};
+use crate::trace::WaveFormat;
 use recent::Recent;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -143,8 +144,12 @@ impl Checker {
     /// Puts a model at power-on beside a design.
     ///
     /// # Errors
-    /// Returns an error if a port to leave out does not exist.
+    /// Returns an error if a port to leave out does not exist, or the file for the waves is neither
+    /// .vcd nor .fst.
     pub fn new(model: Model, options: &Options) -> Result<Self, CheckerError> {
+        if let Some(path) = &options.waves {
+            WaveFormat::of(path).map_err(ModelError::from)?;
+        }
         let list = PortList::of(&model);
         let mut left = Vec::new();
         for name in &options.leave {

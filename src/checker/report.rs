@@ -164,8 +164,8 @@ impl Checker {
         match (self.ticks, self.edges) {
             (0, 0) => "there was no clock edge".to_owned(),
             (0, _) if self.state == State::Waiting => format!(
-                "rst was 1 in none of {edges}, so nothing was compared; FROM_POWER_ON compares \
-                 from the first edge"
+                "rst was 1 in none of {edges}, so nothing was compared; FROM_POWER_ON \
+                 (from_power_on in Python) compares from the first edge"
             ),
             (0, _) => format!("the reset lasted for all of {edges}, so nothing was compared"),
             _ if self.ports.len() == self.layout.inputs.len() => {

@@ -87,6 +87,10 @@ impl Waves {
     }
 
     pub fn failed(&self, error: &ModelError) -> String {
-        format!("{}: {error}\n", self.path.display())
+        let (path, error) = (self.path.display().to_string(), error.to_string());
+        match error.contains(&path) {
+            true => format!("{error}\n"),
+            false => format!("{path}: {error}\n"),
+        }
     }
 }

@@ -41,7 +41,9 @@ Examples:
 pub const VERILOG: &str = "\
 Examples:
   motion-rtl verilog unit_law --out build/unit_law
-  motion-rtl verilog unit_law --testbench 20000 --out build/unit_law";
+  motion-rtl verilog unit_law --testbench 20000 --out build/unit_law
+  motion-rtl verilog unit_law --stimulus inputs.csv --out build/own
+  motion-rtl verilog unit_law --dpi --module my_channel --reset '!rst_n' --out build/dpi";
 
 pub const COMPARE: &str = "\
 Examples:

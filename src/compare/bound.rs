@@ -90,7 +90,8 @@ impl Map {
         if !around.is_empty() {
             match *scope {
                 Some(other) if other != around => {
-                    let problem = format!("{name} is not in {other}, as the ports before it");
+                    let problem =
+                        format!("{name} is not in {other}, where the ports before it are");
                     return fault(problem, "ports of one module");
                 }
                 _ => *scope = Some(around),
@@ -132,8 +133,8 @@ leave = [\"unit_law.counted\"]
         let error = bound(text).unwrap_err();
         assert_eq!(
             error,
-            "m.toml:4: unit_law.step: dut.step_n is not in tb.dut, as the ports before it; allowed: \
-             ports of one module"
+            "m.toml:4: unit_law.step: dut.step_n is not in tb.dut, where the ports before it are; \
+             allowed: ports of one module"
         );
         let bound = bound(&text.replace("!dut", "!tb.dut")).unwrap();
         let pair = |path: &str, expression: &str| (path.to_owned(), expression.to_owned());

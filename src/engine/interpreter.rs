@@ -28,12 +28,21 @@ pub fn edge(plan: &Plan, slab: &mut [u64], counts: &mut Counts) {
     let first = plan.settling.div_ceil(64);
     let words = plan.layout.block_words as usize;
     // Blocks woken by an edge run after it.
-    let mut due = Vec::with_capacity(words - first.min(words));
-    for word in first..words {
+    let count = words - first.min(words);
+    // Few words need no allocation, which takes longer than a small circuit's edge.
+    let (mut few, mut many) = ([0; 8], Vec::new());
+    let due = match few.get_mut(..count) {
+        Some(few) => few,
+        None => {
+            many.resize(count, 0);
+            &mut many[..]
+        }
+    };
+    for (word, due) in (first..words).zip(&mut *due) {
         let dirty = plan.layout.dirty as usize + word;
-        due.push(std::mem::take(&mut slab[dirty]));
+        *due = std::mem::take(&mut slab[dirty]);
     }
-    for (word, mut due) in (first..words).zip(due) {
+    for (word, mut due) in (first..words).zip(due.iter().copied()) {
         while due != 0 {
             let edge = (word - first) * 64 + due.trailing_zeros() as usize;
             due &= due - 1;

@@ -86,7 +86,7 @@ struct ModelWaves {
 
 impl ModelWaves {
     fn new(model: &Model, path: &Path, clock: Clock, options: &Options) -> io::Result<Self> {
-        let format = format(path)?;
+        let format = WaveFormat::of(path)?;
         let circuit = model.elaborated().clone();
         let parent = path.parent().filter(|parent| *parent != Path::new(""));
         let directory = parent.map(Directory::create).transpose()?;
@@ -133,20 +133,5 @@ impl Tap for ModelWaves {
             other => io::Error::other(other),
         })?;
         commit_all([file.finish()?, save?])
-    }
-}
-
-/// Returns the format that an extension names.
-fn format(path: &Path) -> io::Result<WaveFormat> {
-    match path.extension().and_then(|extension| extension.to_str()) {
-        Some("vcd") => Ok(WaveFormat::Vcd),
-        Some("fst") => Ok(WaveFormat::Fst),
-        _ => {
-            let problem = format!(
-                "{}: the extension names no format; allowed: .vcd, .fst",
-                path.display()
-            );
-            Err(io::Error::new(io::ErrorKind::InvalidInput, problem))
-        }
     }
 }

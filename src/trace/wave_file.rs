@@ -9,6 +9,7 @@ use crate::engine::Engine;
 use crate::files::AtomicFile;
 use crate::sim::{Described, LeafView as View, RunError};
 use std::io;
+use std::path::Path;
 
 /// Waveform format.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
@@ -19,6 +20,23 @@ pub enum WaveFormat {
     Vcd,
     /// Format of GTKWave, a fifth to a hundredth of the bytes; see [`Fst`](super::Fst).
     Fst,
+}
+
+impl WaveFormat {
+    /// Returns the format that the extension of a file names.
+    pub(crate) fn of(path: &Path) -> io::Result<Self> {
+        match path.extension().and_then(|extension| extension.to_str()) {
+            Some("vcd") => Ok(WaveFormat::Vcd),
+            Some("fst") => Ok(WaveFormat::Fst),
+            _ => {
+                let problem = format!(
+                    "{}: the extension names no format; allowed: .vcd, .fst",
+                    path.display()
+                );
+                Err(io::Error::new(io::ErrorKind::InvalidInput, problem))
+            }
+        }
+    }
 }
 
 /// Waves of a run in a format chosen at run time; a thread formats them and writes the file.

@@ -111,23 +111,32 @@ impl DpiChecker {
         if self.clocked {
             ports.push(format!("    .rst ({})", binding.reset));
         }
+        let mut bits = Vec::new();
         for (port, _) in &self.ports {
             let mut given = binding.ports.iter();
             let given = given.find(|(path, _)| *path == port.path);
             let name = given.map_or(&port.verilog, |(_, expression)| expression);
             ports.push(format!("    .{} ({name})", port.verilog));
+            bits.push(format!("$bits({name})"));
         }
-        let parameters = match binding.from_power_on {
-            true => " #(.FROM_POWER_ON (1'b1))",
-            false => "",
-        };
+        let mut parameters = Vec::new();
+        if binding.from_power_on {
+            parameters.push("    .FROM_POWER_ON (1'b1)".to_owned());
+        }
+        parameters.push(format!(
+            "    .{OWN}bits ('{{\n        {}\n    }})",
+            bits.join(",\n        ")
+        ));
         let text = format!(
             "\
 // Puts {circuit}_checker into every instance of {module}.
-bind {module} {circuit}_checker{parameters} mrtl_checker (
+bind {module} {circuit}_checker #(
+{}
+) mrtl_checker (
 {}
 );
 ",
+            parameters.join(",\n"),
             ports.join(",\n"),
             module = binding.module,
         );
@@ -216,6 +225,21 @@ bind {module} {circuit}_checker{parameters} mrtl_checker (
         text
     }
 
+    /// Returns the widths of the ports.
+    fn widths(&self) -> Vec<String> {
+        let widths = self.ports.iter().map(|(_, place)| place.width.to_string());
+        widths.collect()
+    }
+
+    /// Returns the statements that compare widths with those of the ports.
+    fn fits(&self) -> String {
+        let lines = self.ports.iter().enumerate().map(|(index, (port, place))| {
+            let (name, width) = (&port.verilog, place.width);
+            format!("        {OWN}fits(\"{name}\", {width}, {OWN}bits[{index}]);\n")
+        });
+        lines.collect()
+    }
+
     fn reset(&self) -> &'static str {
         match self.clocked {
             true => "{31'd0, rst}",
@@ -273,18 +297,33 @@ module {circuit}_checker #(
     parameter bit FROM_POWER_ON = 1'b0,
     // File for the model's waves around the first difference, VCD or FST; %m is the name of the
     // instance. No waves if it is empty.
-    parameter string WAVES = \"%m.vcd\"
+    parameter string WAVES = \"%m.vcd\",
+    // Bits of what is connected to each port; a bind statement measures them.
+    parameter int {OWN}bits [{count}] = '{{{widths}}}
 ) (
 {ports}
 );
 
     int {OWN}checker = 0;
     int {OWN}failed;
+    bit {OWN}narrow = 1'b0;
+    string {OWN}instance;
+
+    // A simulator extends or cuts what has another width.
+    function automatic void {OWN}fits(string port, int width, int connected);
+        if (connected != width) begin
+            {OWN}narrow = 1'b1;
+            $display(\"FAIL: %s: port %s has %0d bits, but what is connected to it has %0d\",
+                {OWN}instance, port, width, connected);
+        end
+    endfunction
 
     initial begin
+        {OWN}instance = $sformatf(\"%m\");
+{fits}        if ({OWN}narrow) $fatal(1, \"{circuit}_checker cannot be used\");
         {OWN}checker = motion_rtl_pkg::mrtl_dpi_new({DPI_VERSION}, \"{VERSION}\",
             \"{circuit}\", \"{settings}\", 64'h{hash:016x}, \"{left}\",
-            {{31'd0, FROM_POWER_ON}}, WAVES, $sformatf(\"%m\"));
+            {{31'd0, FROM_POWER_ON}}, WAVES, {OWN}instance);
         if ({OWN}checker <= 0) begin
             $display(\"FAIL: %s\", motion_rtl_pkg::mrtl_dpi_error());
             $fatal(1, \"{circuit}_checker cannot be used\");
@@ -314,6 +353,9 @@ module {circuit}_checker #(
 endmodule
 ",
             ports = self.declared(),
+            count = self.ports.len(),
+            widths = self.widths().join(", "),
+            fits = self.fits(),
             hash = self.hash,
             left = self.left.join("\\n"),
             unknowns = self.unknowns(),

@@ -38,13 +38,22 @@ fn a_package_a_checker_and_its_binding_are_written() {
     let new =
         format!("mrtl_dpi_new(1, \"{version}\",\n            \"unit_law\", \"width=16\", 64'h");
     assert!(module.contains(&new), "{module}");
-    assert!(
-        module.contains("                {32'd0, period, half_period},\n"),
-        "{module}"
-    );
+    for line in [
+        "                {32'd0, period, half_period},\n",
+        "    parameter int mrtl$bits [3] = '{16, 16, 1}\n",
+        "        mrtl$fits(\"step\", 1, mrtl$bits[2]);\n",
+    ] {
+        assert!(module.contains(line), "{line}: {module}");
+    }
     let bind = "\
 // Puts unit_law_checker into every instance of unit_law.
-bind unit_law unit_law_checker mrtl_checker (
+bind unit_law unit_law_checker #(
+    .mrtl$bits ('{
+        $bits(half_period),
+        $bits(period),
+        $bits(step)
+    })
+) mrtl_checker (
     .clk (clk),
     .rst (rst),
     .half_period (half_period),
@@ -66,7 +75,12 @@ fn the_binding_has_the_names_of_the_design() {
     ];
     bench.succeed(&checker(&own));
     let bind = "\
-bind channel unit_law_checker mrtl_checker (
+bind channel unit_law_checker #(
+    .mrtl$bits ('{
+        $bits(bus[31:16]),
+        $bits(~limit)
+    })
+) mrtl_checker (
     .clk (ck),
     .rst (~rst_n),
     .half_period (bus[31:16]),
@@ -79,14 +93,14 @@ bind channel unit_law_checker mrtl_checker (
     bench.succeed(&checker(&["--reset", "none"]));
     let bind = bench.read("v/unit_law_bind.sv");
     assert!(
-        bind.contains("unit_law_checker #(.FROM_POWER_ON (1'b1)) mrtl_checker (\n"),
+        bind.contains("unit_law_checker #(\n    .FROM_POWER_ON (1'b1),\n    .mrtl$bits ('{\n"),
         "{bind}"
     );
     assert!(bind.contains("    .rst (1'b0),\n"), "{bind}");
     bench.succeed(&checker(&["--from-power-on"]));
     let bind = bench.read("v/unit_law_bind.sv");
     assert!(
-        bind.contains("#(.FROM_POWER_ON (1'b1))") && bind.contains(".rst (rst)"),
+        bind.contains("#(\n    .FROM_POWER_ON (1'b1),\n") && bind.contains(".rst (rst)"),
         "{bind}"
     );
 }

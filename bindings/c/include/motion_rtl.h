@@ -167,9 +167,9 @@ int32_t mrtl_version(char *text, size_t room);
 /**
  * Creates a model at power-on, before tick 0, with all input ports low; returns its handle.
  *
- * `circuit` is a name that `motion-rtl list` prints. `settings` has one `key=value` per line, as
- * `motion-rtl list CIRCUIT` prints them; NULL or "" for none. On an error, the text of it is
- * copied to `error`, which may be NULL if `room` is 0.
+ * `circuit` is a name that `motion-rtl list` prints. `settings` has one `key=value` per line, each
+ * key once, as `motion-rtl list CIRCUIT` prints them; NULL or "" for none. On an error, the text
+ * of it is copied to `error`, which may be NULL if `room` is 0.
  */
 mrtl_model mrtl_new(const char *circuit, const char *settings, char *error, size_t room);
 

@@ -27,9 +27,9 @@ pub unsafe extern "C" fn mrtl_version(text: *mut c_char, room: usize) -> i32 {
 
 /// Creates a model at power-on, before tick 0, with all input ports low; returns its handle.
 ///
-/// `circuit` is a name that `motion-rtl list` prints. `settings` has one `key=value` per line, as
-/// `motion-rtl list CIRCUIT` prints them; NULL or "" for none. On an error, the text of it is
-/// copied to `error`, which may be NULL if `room` is 0.
+/// `circuit` is a name that `motion-rtl list` prints. `settings` has one `key=value` per line, each
+/// key once, as `motion-rtl list CIRCUIT` prints them; NULL or "" for none. On an error, the text
+/// of it is copied to `error`, which may be NULL if `room` is 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mrtl_new(
     circuit: *const c_char,
@@ -47,7 +47,9 @@ pub unsafe extern "C" fn mrtl_new(
                 };
                 (text::read("circuit", circuit)?, settings)
             };
-            let model = Model::new(circuit, &pairs(settings)?)?;
+            let pairs = pairs(settings)?;
+            once(&pairs)?;
+            let model = Model::new(circuit, &pairs)?;
             given(MODELS.insert(Bench::new(model)), "models")
         };
         made().unwrap_or_else(|failure| {
@@ -70,6 +72,19 @@ pub fn pairs(settings: &str) -> Result<Vec<Pair>, Failure> {
         }
     }
     Ok(pairs)
+}
+
+/// Refuses keys that are given twice.
+fn once(pairs: &[Pair]) -> Result<(), Failure> {
+    let twice =
+        (1..pairs.len()).find(|&at| pairs[..at].iter().any(|pair| pair.key == pairs[at].key));
+    match twice {
+        Some(at) => {
+            let text = format!("settings: {}: given twice; allowed: once", pairs[at].key);
+            Err(Failure::new(MRTL_SETTINGS, text))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Frees a model; its handle is wrong from then on. Waves that are not finished are dropped.

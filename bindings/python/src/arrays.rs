@@ -49,8 +49,13 @@ impl Values {
         if value.is_instance_of::<PyInt>() {
             return number(value).map(Values::Constant);
         }
-        let py = value.py();
-        let array = py.import("numpy")?.call_method1("asarray", (value,))?;
+        let numpy = value.py().import("numpy")?;
+        let is_masked = numpy.getattr("ma")?.call_method1("isMaskedArray", (value,))?;
+        if is_masked.is_truthy()? {
+            let text = format!("{name}: is a masked array; allowed: an array without a mask");
+            return Err(PyTypeError::new_err(text));
+        }
+        let array = numpy.call_method1("asarray", (value,))?;
         let dtype = array.getattr("dtype")?;
         let kind: String = dtype.getattr("kind")?.extract()?;
         let dimensions: usize = array.getattr("ndim")?.extract()?;

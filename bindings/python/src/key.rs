@@ -58,8 +58,10 @@ pub fn number(value: &Bound<'_, PyAny>) -> PyResult<i128> {
         return Ok(bit.into());
     }
     if value.hasattr("__index__")? {
-        return value.extract::<i128>().map_err(|_| {
-            PyValueError::new_err(format!("{value} does not fit; no port has above 64 bits"))
+        // An array of one element has the method, and refuses.
+        let number = value.call_method0("__index__")?;
+        return number.extract::<i128>().map_err(|_| {
+            PyValueError::new_err(format!("{number} does not fit; no port has above 64 bits"))
         });
     }
     let given = value.get_type().name()?;
@@ -71,6 +73,7 @@ pub fn number(value: &Bound<'_, PyAny>) -> PyResult<i128> {
 pub fn ticks(value: &Bound<'_, PyAny>) -> PyResult<u64> {
     let number = number(value)?;
     u64::try_from(number).map_err(|_| {
-        PyValueError::new_err(format!("ticks: is {number}; allowed: a number from 0 on"))
+        let greatest = u64::MAX;
+        PyValueError::new_err(format!("ticks: is {number}; allowed: 0 to {greatest}"))
     })
 }

@@ -16,6 +16,9 @@ use pyo3::prelude::*;
 
 #[pymodule]
 fn _motion_rtl(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    // The crate `numpy` panics if Ctrl-C comes while it looks for NumPy at its first array.
+    module.py().import("numpy")?;
+    numpy::dtype::<u64>(module.py());
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<model::Model>()?;
     module.add_class::<snapshot::Snapshot>()?;

@@ -7,6 +7,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::sync::MutexExt;
 use std::ops::Range;
+use std::process;
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread::{self, ThreadId};
 
@@ -20,15 +21,31 @@ const FEW: u64 = 64;
 pub struct Shared {
     model: Mutex<Model>,
     /// Thread in a call that lets other Python code run meanwhile.
-    holder: Mutex<Option<ThreadId>>,
+    holder: Mutex<Option<Holder>>,
+}
+
+/// Thread and its process, of which a fork has none.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Holder {
+    thread: ThreadId,
+    process: u32,
 }
 
 /// A call that lets other Python code run, such as a signal handler.
-struct Held<'s>(&'s Mutex<Option<ThreadId>>);
+struct Held<'s>(&'s Mutex<Option<Holder>>);
+
+impl Holder {
+    fn this_thread() -> Self {
+        Holder {
+            thread: thread::current().id(),
+            process: process::id(),
+        }
+    }
+}
 
 impl<'s> Held<'s> {
-    fn by_this_thread(holder: &'s Mutex<Option<ThreadId>>) -> Self {
-        *holder.lock().unwrap_or_else(PoisonError::into_inner) = Some(thread::current().id());
+    fn by_this_thread(holder: &'s Mutex<Option<Holder>>) -> Self {
+        *holder.lock().unwrap_or_else(PoisonError::into_inner) = Some(Holder::this_thread());
         Held(holder)
     }
 }
@@ -50,7 +67,8 @@ impl Shared {
     /// Waits until no other thread uses the model. Nothing of Python may be called with the guard.
     ///
     /// # Errors
-    /// The model is in the middle of a call of this thread, or one of its calls panicked.
+    /// The model is in the middle of a call of this thread, or was so of another thread when this
+    /// process was forked, or one of its calls panicked.
     pub fn lock(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Model>> {
         match self.model.try_lock() {
             Ok(model) => return Ok(model),
@@ -58,7 +76,13 @@ impl Shared {
             Err(TryLockError::WouldBlock) => {}
         }
         let holder = *self.holder.lock().unwrap_or_else(PoisonError::into_inner);
-        if holder == Some(thread::current().id()) {
+        let this = Holder::this_thread();
+        if holder.is_some_and(|holder| holder.process != this.process) {
+            let text = "the process was forked while another thread was in a call of the model; \
+                        a copy() made before the fork can be used";
+            return Err(PyRuntimeError::new_err(text));
+        }
+        if holder == Some(this) {
             let text = "the model is in the middle of a call of this thread; \
                         a signal handler or finalizer cannot use it";
             return Err(PyRuntimeError::new_err(text));

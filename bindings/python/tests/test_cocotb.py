@@ -63,7 +63,7 @@ def test_reports_of_checkers(tmp_path):
     sources = [path for path in DESIGN.glob("*.v") if path.name != "step_channel_tb.v"]
     widths = {"HALF_W": 16, "LIMIT_W": 16}
     found = simulate(tmp_path, "step_channel", sources, "step_channel_checks", parameters=widths)
-    assert found == (10, 0)
+    assert found == (11, 0)
 
 
 @needs_icarus

@@ -141,6 +141,9 @@ def test_arrays_of_another_kind_are_refused(counter):
         counter.run({"period": [[1, 2]]})
     with pytest.raises(TypeError, match="period: has dtype float64"):
         counter.run({"period": 1.5}, ticks=1)
+    # The values under a mask are none.
+    with pytest.raises(TypeError, match="period: is a masked array; allowed: an array without"):
+        counter.run({"period": np.ma.array([1, 2], mask=[False, True])})
 
 
 def test_unknown_signals_are_refused(counter):

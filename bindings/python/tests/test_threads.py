@@ -114,3 +114,52 @@ def test_a_signal_handler_cannot_use_a_model_that_runs():
         check=True,
     )
     assert done.stdout.startswith("the model is in the middle of a call of this thread")
+
+
+def test_a_fork_during_a_call_of_another_thread_is_told():
+    code = f"""
+        import os, signal, threading, time
+        import motion_rtl as mr
+        m = mr.Model("enable_counter")
+        before = m.copy()
+        threading.Thread(target=lambda: m.step({ENDLESS}), daemon=True).start()
+        time.sleep(0.2)
+        child = os.fork()
+        if child == 0:
+            signal.alarm(10)
+            before.step()
+            try:
+                m.step()
+            except RuntimeError as error:
+                print(error, flush=True)
+            os._exit(0)
+        print(os.waitpid(child, 0)[1], flush=True)
+        os._exit(0)
+    """
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", textwrap.dedent(code)],
+        capture_output=True,
+        text=True,
+        timeout=20,
+        check=True,
+    )
+    text = "the process was forked while another thread was in a call of the model"
+    assert done.stdout.startswith(text) and done.stdout.endswith("\n0\n"), done.stdout
+
+
+def test_ctrl_c_at_the_first_array_is_no_panic():
+    # NumPy is asked for its version and its functions once, and Ctrl-C could come then.
+    code = """
+        import motion_rtl as mr
+        import numpy as np
+
+        def interrupted(*_):
+            raise KeyboardInterrupt
+
+        np.lib.NumpyVersion = interrupted
+        print(mr.Model("enable_counter").run({"period": [1, 2]})["enable"])
+    """
+    done = subprocess.run(
+        [sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, check=False
+    )
+    assert (done.stdout, done.stderr) == ("[ True False]\n", "")

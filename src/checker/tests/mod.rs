@@ -184,8 +184,8 @@ fn comparing_nothing_or_nothing_that_moves_is_vacuous() {
     waiting.edges(20);
     assert_eq!(
         vacuous(&mut waiting),
-        "VACUOUS: rst was 1 in none of 20 edges, so nothing was compared; FROM_POWER_ON compares \
-         from the first edge"
+        "VACUOUS: rst was 1 in none of 20 edges, so nothing was compared; FROM_POWER_ON \
+         (from_power_on in Python) compares from the first edge"
     );
 
     let mut in_reset = made(&Options::default());

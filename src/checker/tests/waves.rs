@@ -84,6 +84,19 @@ fn same_waves(path: &Path, difference: u64, length: u64, ticks: Range<u64>) {
 }
 
 #[test]
+fn waves_of_no_format_are_refused_at_once() {
+    for path in ["a.txt", "a", "a.VCD"] {
+        let options = Options {
+            waves: Some(path.into()),
+            ..Options::default()
+        };
+        let error = Checker::new(model("enable_counter", "width=8"), &options).unwrap_err();
+        let text = format!("{path}: the extension names no format; allowed: .vcd, .fst");
+        assert!(error.to_string().ends_with(&text), "{error}");
+    }
+}
+
+#[test]
 fn waves_that_cannot_be_written_do_not_disturb_the_comparison() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("file"), "").unwrap();
@@ -100,6 +113,7 @@ fn waves_that_cannot_be_written_do_not_disturb_the_comparison() {
         text.contains("file/a.vcd: the waves could not be written: "),
         "{text}"
     );
+    assert_eq!(text.matches("file/a.vcd").count(), 1, "{text}");
     beside.edges(250);
     let (_, report) = beside.end();
     assert!(

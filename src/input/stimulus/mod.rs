@@ -133,7 +133,8 @@ impl<'s> Source<'s> {
         match inputs.ticks() {
             LEAST.. => Ok(inputs),
             ticks => {
-                let problem = format!("{ticks} ticks in it");
+                let plural = if ticks == 1 { "" } else { "s" };
+                let problem = format!("{ticks} tick{plural} in it");
                 let allowed = format!("one line per tick, {LEAST} or more");
                 Err(Fault::new(self.file, 0, "file", problem, allowed))
             }

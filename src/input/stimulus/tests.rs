@@ -106,7 +106,7 @@ fn lines_that_are_no_inputs_are_refused() {
         ),
         (
             "push\n1\n",
-            "a.csv: file: 1 ticks in it; allowed: one line per tick, 2 or more",
+            "a.csv: file: 1 tick in it; allowed: one line per tick, 2 or more",
         ),
     ] {
         let error = csv(text).unwrap_err();

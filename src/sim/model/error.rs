@@ -66,8 +66,8 @@ pub enum ModelError {
         /// Number of ticks.
         ticks: usize,
     },
-    /// A handle or a snapshot is of another circuit.
-    #[error("the {what} belongs to another circuit than this {circuit}")]
+    /// A handle or a snapshot is of another circuit, or of one with other settings.
+    #[error("the {what} is of another circuit than this {circuit}, or of other settings")]
     OtherCircuit {
         /// `handle` or `snapshot`.
         what: &'static str,

@@ -163,12 +163,14 @@ fn handles_and_snapshots_of_other_circuits() {
     let mut model = interpolator();
     let mut wider = Model::new("linear_interpolator", &[pair("widths.position=21")]).unwrap();
     let x = wider.find("x").unwrap();
-    let wrong = "the handle belongs to another circuit than this linear_interpolator";
+    let wrong =
+        "the handle is of another circuit than this linear_interpolator, or of other settings";
     assert_eq!(text(model.get(x)), wrong);
     assert_eq!(text(model.set(wider.find("scan").unwrap(), 1)), wrong);
     assert_eq!(text(model.play(0, &[], &[x])), wrong);
     let snapshot = wider.snapshot();
-    let wrong = "the snapshot belongs to another circuit than this linear_interpolator";
+    let wrong =
+        "the snapshot is of another circuit than this linear_interpolator, or of other settings";
     assert_eq!(text(model.restore(&snapshot)), wrong);
     assert_eq!(model.tick(), 0);
     // An equal circuit is the same one.

@@ -89,6 +89,35 @@ fn wrong_names_and_widths_are_errors_of_the_simulator() {
     );
 }
 
+/// Other simulators have no such warning, and many benches turn it off.
+#[test]
+#[ignore = "needs Verilator and the library of bindings/c"]
+fn a_width_that_no_warning_stops_is_found_at_the_start() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    for (expression, bits) in [("period[6:0]", 7), ("{1'b0, period}", 9)] {
+        let binding = Binding {
+            ports: vec![("period".to_owned(), expression.to_owned())],
+            ..binding()
+        };
+        let quiet = |name: &str, text: String| match name {
+            "enable_counter_bind.sv" => format!("/* verilator lint_off WIDTH */\n{text}"),
+            _ => text,
+        };
+        let program = changed(path, &binding, quiet).unwrap_or_else(|text| panic!("{text}"));
+        let (code, text) = ended(&mut started(path, &program));
+        let expected = format!(
+            "mrtl_checker: port period has 8 bits, but what is connected to it has {bits}\n"
+        );
+        assert_ne!(code, Some(0), "{text}");
+        assert!(
+            text.contains("FAIL: ") && text.contains(&expected),
+            "{text}"
+        );
+        assert!(!text.contains("PASS"), "{text}");
+    }
+}
+
 #[test]
 #[ignore = "needs Verilator and the library of bindings/c"]
 fn another_version_and_other_ports_are_found_at_the_start() {

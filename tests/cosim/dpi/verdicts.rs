@@ -134,7 +134,7 @@ fn judges(clock: Clock) {
     );
     let (code, text) = plays(&["+unreset"]);
     let unreset = "VACUOUS: rst was 1 in none of 3001 edges, so nothing was compared; \
-                   FROM_POWER_ON compares from the first edge";
+                   FROM_POWER_ON (from_power_on in Python) compares from the first edge";
     assert_eq!(
         (code == Some(0), verdicts(&text)),
         (false, vec![unreset; 2]),

@@ -56,6 +56,8 @@ static void no_model(void)
     CONTAINS(why, "enable_counter");
     EXPECT(mrtl_new("enable_counter", "width=8\n\nwidth", why, sizeof why), MRTL_SETTINGS);
     CONTAINS(why, "settings, line 3");
+    EXPECT(mrtl_new("enable_counter", "width=8\nwidth=9", why, sizeof why), MRTL_SETTINGS);
+    CONTAINS(why, "settings: width: given twice; allowed: once");
     /* The text of an error without a buffer for it is left out. */
     EXPECT(mrtl_new("enable_countr", NULL, NULL, 8), MRTL_UNKNOWN);
 }

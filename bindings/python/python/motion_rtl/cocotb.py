@@ -6,10 +6,10 @@ import json
 import os
 import re
 from asyncio import CancelledError
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ._motion_rtl import Model, _bound_ports, _Checker
 
@@ -22,11 +22,13 @@ except ModuleNotFoundError as error:
 if tuple(int(number) for number in cocotb.__version__.split(".")[:2]) < (2, 1):
     raise ImportError(f"cocotb {cocotb.__version__} is installed; allowed: 2.1 or newer")
 
-from cocotb.handle import LogicArrayObject, LogicObject, PackedObject  # noqa: E402
+from cocotb.handle import (  # noqa: E402
+    LogicArrayObject,
+    LogicObject,
+    PackedObject,
+    SimHandleBase,
+)
 from cocotb.triggers import RisingEdge  # noqa: E402
-
-if TYPE_CHECKING:
-    from cocotb.handle import SimHandleBase
 
 __all__ = ["CheckFailed", "Checker", "Report"]
 
@@ -76,16 +78,16 @@ class Checker:
     circuit : str or Model
         Name of the circuit, or a model, of which a copy is used.
     settings : dict, optional
-        Settings of the circuit, as those of ``Model``.
-    clock : handle
-        Clock.
+        Settings of the circuit, as those of ``Model``. A model has its own.
+    clock : handle or str
+        Clock, or its name below `dut`.
     reset : handle or str, optional
         Synchronous reset, or its name below `dut`, with ``!`` before it if it is active low;
         ``dut.rst`` if it is left out. ``False`` if there is none.
     map : path or dict, optional
-        Names that differ: a file as for ``compare``, or a dict from port to a name below `dut`,
-        such as ``"!step_n"`` or ``"bus[27:4]"``. Ports with equal names need no entry.
-    leave : sequence of str
+        Names that differ: a file as for ``compare``, or a dict from port to the name of a port of
+        `dut`, such as ``"!step_n"`` or ``"bus[27:4]"``. Ports with equal names need no entry.
+    leave : str or sequence of str
         Ports that are left out.
     from_power_on : bool
         Compare from the first edge, with the model at power-on. Otherwise the comparison begins
@@ -99,7 +101,10 @@ class Checker:
     KeyError
         There is no such circuit; the text has the nearest name.
     ValueError
-        The design has not all ports with their widths, or a map or setting is refused.
+        The design has not all ports with their widths, or a map, a setting or the extension of
+        `waves` is refused.
+    TypeError
+        An argument has another type.
     """
 
     def __init__(
@@ -108,14 +113,22 @@ class Checker:
         circuit: str | Model,
         settings: Mapping[str, Any] | None = None,
         *,
-        clock: SimHandleBase,
+        clock: SimHandleBase | str,
         reset: SimHandleBase | str | bool | None = None,
         map: str | os.PathLike[str] | Mapping[str, str] | None = None,
-        leave: Sequence[str] = (),
+        leave: str | Sequence[str] = (),
         from_power_on: bool = False,
         waves: str | os.PathLike[str] | bool | None = None,
     ) -> None:
-        model = circuit if isinstance(circuit, Model) else Model(circuit, settings)
+        if not isinstance(dut, SimHandleBase):
+            raise TypeError(f"dut: is {type(dut).__name__}; allowed: a handle of the design")
+        if isinstance(circuit, Model):
+            if settings is not None:
+                raise ValueError("settings: given with a model, which has its own; allowed: neither")
+            model = circuit
+        else:
+            model = Model(circuit, settings)
+        leave = [leave] if isinstance(leave, str) else leave
         ports, left = _ports(model, map, leave)
         reads, slices, wrong = [], [], []
         for path, _, width, expression in ports:
@@ -126,6 +139,7 @@ class Checker:
             else:
                 reads.append(read)
                 slices.append(digits)
+        rises = _clock(dut, clock, wrong)
         reads_reset, inverts = _reset(dut, reset, wrong)
         if wrong:
             raise ValueError("\n".join(wrong))
@@ -135,15 +149,14 @@ class Checker:
         self._reads = reads
         self._reset = reads_reset
         self._inverts = inverts
-        self._clock = clock
+        self._rises = rises
         self._first = ""
         self._report: Report | None = None
         self._log = dut._log
-        self._task = cocotb.start_soon(self._watch())
+        self._task = cocotb.start_soon(_Begun(self._watch()))
 
     async def _watch(self) -> None:
-        edge, reads, reset = self._checker.edge, self._reads, self._reset
-        rises = RisingEdge(self._clock)
+        edge, reads, reset, rises = self._checker.edge, self._reads, self._reset, self._rises
         try:
             while True:
                 await rises
@@ -181,6 +194,29 @@ class Checker:
         return self._report
 
 
+class _Begun(Coroutine[Any, Any, None]):
+    """Coroutine that is begun before it is cancelled, even if its test ends at once."""
+
+    def __init__(self, inner: Coroutine[Any, Any, None]) -> None:
+        self._inner = inner
+        self._has_begun = False
+
+    def send(self, value: Any) -> Any:
+        self._has_begun = True
+        return self._inner.send(value)
+
+    def throw(self, *error: Any) -> Any:
+        if not self._has_begun:
+            self.send(None)
+        return self._inner.throw(*error)
+
+    def close(self) -> None:
+        self._inner.close()
+
+    def __await__(self) -> Any:
+        return self._inner.__await__()
+
+
 def _ports(
     model: Model,
     map: str | os.PathLike[str] | Mapping[str, str] | None,
@@ -188,7 +224,7 @@ def _ports(
 ) -> tuple[list[tuple[str, str, int, str]], list[str]]:
     """Return the ports to compare, input ports first, and the paths of those that are left out."""
     if isinstance(map, Mapping) or map is None:
-        lines = [f"{json.dumps(port)} = {json.dumps(name)}" for port, name in (map or {}).items()]
+        lines = [_line(port, name) for port, name in (map or {}).items()]
         ports, left = _bound_ports(model, None, "\n".join(["[signals]", *lines]))
     else:
         ports, left = _bound_ports(model, map, None)
@@ -203,6 +239,16 @@ def _ports(
     return sorted(ports, key=lambda port: port[1] != "in"), left
 
 
+def _line(port: Any, name: Any) -> str:
+    """Return a pair of a map as a line of a map file."""
+    for text in (port, name):
+        if not isinstance(text, str):
+            raise TypeError(f"map: {port}: is {type(text).__name__}; allowed: names as str")
+    if "." in name:
+        raise ValueError(f"map: {port}: {name} has a dot; allowed: a port of the design itself")
+    return f"{json.dumps(port)} = {json.dumps(name)}"
+
+
 #: Name below the design with an inversion and one bit or some bits.
 _EXPRESSION = re.compile(r"(~?)(.+?)(?:\[(\d+)(?::(\d+))?\])?")
 
@@ -214,7 +260,7 @@ def _read(
     parts = _EXPRESSION.fullmatch(expression)
     assert parts is not None
     inverts, name, high, low = parts.groups()
-    handle = _find(dut, name)
+    handle = _find(dut, name, "a pair of names in map")
     read, digits = _digits(handle)
     first, end = 0, digits
     if high is not None and digits > 1:
@@ -222,21 +268,22 @@ def _read(
         first = (int(high) - left) * step
         end = (int(low if low is not None else high) - left) * step + 1
         if not 0 <= first < end <= digits:
-            raise ValueError(f"{name} of the design is {handle.range}; allowed: bits of it")
+            bits = f"[{left}:{handle.range.right}]"
+            raise ValueError(f"{expression}: {name} of the design is {bits}; allowed: bits of it")
     if end - first != width:
         raise ValueError(f"has {width} bits, but {expression} of the design has {end - first}")
     return read, (inverts == "~", first, end)
 
 
-def _find(dut: SimHandleBase, name: str) -> SimHandleBase:
+def _find(dut: SimHandleBase, name: str, allowed: str) -> SimHandleBase:
     """Return the handle of a name below the design."""
-    try:
-        return getattr(dut, name)
-    except AttributeError:
-        near = get_close_matches(name, [handle._name for handle in dut], 3)
-        meant = f"; near it: {', '.join(near)}" if near else ""
-        text = f"the design {dut._path} has no {name}{meant}; allowed: a pair of names in map"
-        raise ValueError(text) from None
+    handle = getattr(dut, name, None)
+    # An attribute of Python is no part of the design.
+    if isinstance(handle, SimHandleBase):
+        return handle
+    near = get_close_matches(name, [handle._name for handle in dut], 3)
+    meant = f"; near it: {', '.join(near)}" if near else ""
+    raise ValueError(f"the design {dut._path} has no {name}{meant}; allowed: {allowed}")
 
 
 def _digits(handle: SimHandleBase) -> tuple[Callable[[], str], int]:
@@ -249,6 +296,27 @@ def _digits(handle: SimHandleBase) -> tuple[Callable[[], str], int]:
     return handle._handle.get_signal_val_binstr, digits
 
 
+def _bit(dut: SimHandleBase, signal: Any, allowed: str) -> SimHandleBase:
+    """Return the handle of one bit, which is a handle or a name below the design."""
+    if isinstance(signal, str):
+        signal = _find(dut, signal, allowed)
+    if not isinstance(signal, SimHandleBase):
+        raise ValueError(f"is {type(signal).__name__}; allowed: {allowed}")
+    _, digits = _digits(signal)
+    if digits != 1:
+        raise ValueError(f"{signal._name} of the design has {digits} bits; allowed: 1")
+    return signal
+
+
+def _clock(dut: SimHandleBase, clock: Any, wrong: list[str]) -> RisingEdge | None:
+    """Return the trigger of a rising edge; `None` if there is none."""
+    try:
+        return RisingEdge(_bit(dut, clock, "a handle of the clock, or its name"))
+    except ValueError as error:
+        wrong.append(f"clock: {error}")
+        return None
+
+
 def _reset(
     dut: SimHandleBase, reset: SimHandleBase | str | bool | None, wrong: list[str]
 ) -> tuple[Callable[[], str], bool]:
@@ -256,15 +324,10 @@ def _reset(
     if reset is False:
         return lambda: "0", False
     inverts = isinstance(reset, str) and reset.startswith("!")
+    signal = "rst" if reset is None else reset.removeprefix("!") if inverts else reset
     try:
-        if reset is None:
-            reset = _find(dut, "rst")
-        elif isinstance(reset, str):
-            reset = _find(dut, reset.removeprefix("!"))
-        read, digits = _digits(reset)
-        if digits != 1:
-            raise ValueError(f"{reset._name} of the design has {digits} bits; allowed: 1")
+        allowed = "a handle of the reset, its name, or False for a design without one"
+        return _digits(_bit(dut, signal, allowed))[0], inverts
     except ValueError as error:
         wrong.append(f"reset: {error}")
         return lambda: "0", False
-    return read, inverts

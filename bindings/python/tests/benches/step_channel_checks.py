@@ -83,9 +83,15 @@ async def without_a_clock(dut):
     assert report.text.startswith("VACUOUS: there was no clock edge"), report
 
 
+@cocotb.test(expect_error=RuntimeError)
+async def without_time(dut):
+    # cocotb has not begun the checker's task when the test ends.
+    checker(dut)
+
+
 @cocotb.test()
 async def without_an_output(dut):
-    check = checker(dut, leave=["step"])
+    check = checker(dut, leave="step", clock="clk")
     await play(dut)
     report = check.finish()
     assert report.verdict == "VACUOUS" and "no output port is compared" in report.text, report
@@ -153,7 +159,7 @@ async def mistakes(dut):
         map=MAP | {"period": "i_next_half[7:0]"},
     )
     refused(
-        r"i_next_half of the design is .*15.*allowed: bits of it",
+        r"i_next_half\[16:1\]: i_next_half of the design is \[15:0\]; allowed: bits of it",
         map=MAP | {"period": "i_next_half[16:1]"},
     )
     refused("no signal of unit_law is called so", map=MAP | {"stp": "o_step_n"})
@@ -162,6 +168,22 @@ async def mistakes(dut):
     refused("reset: i_next_half of the design has 16 bits; allowed: 1", reset="i_next_half")
     refused("u_timer of the design is a Hierarchy; allowed: one", map=MAP | {"period": "u_timer"})
     refused("nothing.toml", map="nothing.toml")
+    refused("reset: is bool; allowed: a handle of the reset, its name, or False", reset=True)
+    refused("clock: is NoneType; allowed: a handle of the clock, or its name", clock=None)
+    refused("clock: i_next_half of the design has 16 bits; allowed: 1", clock=dut.i_next_half)
+    refused("clock: the design step_channel has no ck; near it: clk", clock="ck")
+    refused("map: step: is LogicObject", TypeError, map=MAP | {"step": dut.o_step_n})
+    refused("map: step: is NoneType", TypeError, map=MAP | {"step": None})
+    refused(
+        "map: period: u_timer.i_limit has a dot; allowed: a port of the design itself",
+        map=MAP | {"period": "u_timer.i_limit"},
+    )
+    refused("unit_law.step: the design step_channel has no _log", map=MAP | {"step": "_log"})
+    refused("a.txt: the extension names no format; allowed: .vcd, .fst", waves="a.txt")
+    with pytest.raises(ValueError, match="settings: given with a model, which has its own"):
+        mr.cocotb.Checker(dut, mr.Model("unit_law"), {"width": 16}, clock=dut.clk)
+    with pytest.raises(TypeError, match="dut: is str; allowed: a handle of the design"):
+        mr.cocotb.Checker("dut", "unit_law", clock=dut.clk)
     with pytest.raises(KeyError, match="did you mean unit_law"):
         mr.cocotb.Checker(dut, "unit_lw", clock=dut.clk)
     with pytest.raises(ValueError, match="widht"):
