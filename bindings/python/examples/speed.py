@@ -57,7 +57,11 @@ def main(ticks):
                 model[watched]
                 model.step()
 
-        def arrays(model=model, port=port, watched=watched, values=np.ones(10 * ticks, int)):
+        # Inputs that move; a circuit in which nothing moves is not compiled.
+        high = 1 if model.signals[port].kind == "bit" else 5
+        values = np.where(np.arange(10 * ticks) >> 6 & 1, high, high // 4)
+
+        def arrays(model=model, port=port, watched=watched, values=values):
             model.run({port: values}, watch=[watched])
 
         print(
