@@ -50,7 +50,9 @@ impl Values {
             return number(value).map(Values::Constant);
         }
         let numpy = value.py().import("numpy")?;
-        let is_masked = numpy.getattr("ma")?.call_method1("isMaskedArray", (value,))?;
+        let is_masked = numpy
+            .getattr("ma")?
+            .call_method1("isMaskedArray", (value,))?;
         if is_masked.is_truthy()? {
             let text = format!("{name}: is a masked array; allowed: an array without a mask");
             return Err(PyTypeError::new_err(text));

@@ -124,7 +124,8 @@ class Checker:
             raise TypeError(f"dut: is {type(dut).__name__}; allowed: a handle of the design")
         if isinstance(circuit, Model):
             if settings is not None:
-                raise ValueError("settings: given with a model, which has its own; allowed: neither")
+                text = "settings: given with a model, which has its own; allowed: neither"
+                raise ValueError(text)
             model = circuit
         else:
             model = Model(circuit, settings)
