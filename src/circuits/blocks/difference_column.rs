@@ -14,7 +14,6 @@
 //! itself fits, even if the columns below have wrapped.
 
 use super::record_memory::RecordWord;
-use crate::hdl::Registers;
 use crate::prelude::*;
 
 /// Widths of a column and of the records it is loaded from, in bits.
@@ -126,63 +125,91 @@ impl Circuit for DifferenceColumn {
         };
         (net, next)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let doubled = q.part.shift_left(1);
+        let down = w.nearest.equals(q.whole) & doubled.below(i.modulus);
+        let up = w.nearest.equals(q.whole + 1) & !doubled.below(i.modulus);
+        let mut all = self.given(i, q.part).to_vec();
+        all.extend([
+            Property::step(
+                "a step adds the number of the column below without an error",
+                &["whole", "part"],
+                !i.step | i.record.load | self.adds(i, q, next),
+            ),
+            Property::step(
+                "the part stays below the modulus",
+                &["part"],
+                next.part.below(i.modulus) | w.load_part,
+            ),
+            Property::step(
+                "the column loads its own words and no others",
+                &["whole", "part"],
+                i.step | self.loads(i, q, next),
+            ),
+            Property::always(
+                "the nearest integer differs from the number by at most a half",
+                &["nearest"],
+                down | up,
+            ),
+        ]);
+        all
+    }
+}
+
+impl DifferenceColumn {
+    /// Statements about the inputs that the circuits around a column keep.
+    fn given(&self, i: &In, part: U) -> [Property; 4] {
+        let width = self.widths.part;
+        let is_modulus = !i.modulus.is_zero() & !U::new(1 << (width - 1), width).below(i.modulus);
+        [
+            Property::given("the modulus is from 1 to half of its range", is_modulus),
+            Property::given(
+                "the part of the column below is less than the modulus",
+                i.by_part.below(i.modulus),
+            ),
+            Property::given(
+                "load and step are never high together",
+                !(i.record.load & i.step),
+            ),
+            Property::given(
+                "the modulus is greater than the part that the column holds",
+                part.below(i.modulus),
+            ),
+        ]
+    }
+
+    /// High if the edge adds the number of the column below.
+    fn adds(&self, i: &In, q: &Reg<Open>, next: &Reg<Open>) -> Bit {
+        // The sum of the parts does not wrap: both are below the modulus, which is at most half of
+        // the range.
+        let (parts, wholes) = (q.part + i.by_part, q.whole + i.by_whole);
+        let plain = next.part.equals(parts) & next.whole.equals(wholes);
+        let wrapped = !parts.below(i.modulus) & next.part.equals(parts - i.modulus);
+        plain | (wrapped & next.whole.equals(wholes + 1))
+    }
+
+    /// High if the edge loads a record word that is the column's own, and nothing else.
+    fn loads(&self, i: &In, q: &Reg<Open>, next: &Reg<Open>) -> Bit {
+        let Widths { whole, part, .. } = self.widths;
+        let is = |name, number| i.record.word.equals(U::parameter(name, number, 5));
+        let whole_comes = i.record.load & is("whole_word", self.whole_word);
+        let part_comes = match self.part_word {
+            Some(number) => i.record.load & is("part_word", number),
+            None => Bit::low(),
+        };
+        let data = i.record.data;
+        let part_word = part_comes.mux(data.resize(part), q.part);
+        let is_whole = next
+            .whole
+            .equals(whole_comes.mux(data.resize(whole).signed(), q.whole));
+        is_whole & next.part.equals(whole_comes.mux(0, part_word))
+    }
 }
 
 impl Specified for DifferenceColumn {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let Widths { whole, part, .. } = self.widths;
-        Invariants::<Self>::new()
-            .step(
-                "a step adds the number of the column below without an error",
-                move |now, next| {
-                    let modulus = now.i.modulus as i64;
-                    let number = |whole: i64, part: u64| whole * modulus + part as i64;
-                    let sum =
-                        number(now.q.whole, now.q.part) + number(now.i.by_whole, now.i.by_part);
-                    let after = number(next.q.whole, next.q.part);
-                    let right = (after - sum).rem_euclid(modulus << whole) == 0;
-                    let steps = now.i.step && !now.i.record.load;
-                    require(right || !steps, ["whole", "part"], || {
-                        format!("{after} / {modulus}, not {sum} / {modulus}")
-                    })
-                },
-            )
-            .step("the part stays below the modulus", |now, next| {
-                let right = next.q.part < now.i.modulus;
-                require(right || now.w.load_part, ["part"], || "too large".into())
-            })
-            .step(
-                "the column loads its own words and no others",
-                move |now, next| {
-                    let record = &now.i.record;
-                    let word = record.load.then_some(record.word);
-                    let (mut expected, mut parts) = (now.q.whole, now.q.part);
-                    if word == Some(self.whole_word) {
-                        (expected, parts) = (record.data as i64, 0);
-                    } else if word.is_some() && word == self.part_word {
-                        parts = record.data;
-                    }
-                    let right = (next.q.whole - expected).rem_euclid(1 << whole) == 0
-                        && next.q.part == parts % (1 << part);
-                    require(right || now.i.step, ["whole", "part"], || {
-                        format!("not {expected} and {parts}")
-                    })
-                },
-            )
-            .always(
-                "the nearest integer differs from the number by at most a half",
-                move |now| {
-                    let modulus = now.i.modulus as i64;
-                    let part = now.q.part as i64;
-                    let up = (now.w.nearest - now.q.whole).rem_euclid(1 << whole);
-                    let doubled = 2 * (up * modulus - part);
-                    let right = -modulus < doubled && doubled <= modulus;
-                    require(right, ["nearest"], || format!("{up} above the whole"))
-                },
-            )
-    }
-
-    /// A word that is not the column's, does not differ from another such.
+    /// Keeps the assumptions. A word that is not the column's, does not differ from another such.
     fn applies(&self, i: &In<Value>) -> bool {
         let other = (0..32).find(|word| *word != self.whole_word && Some(*word) != self.part_word);
         let words = [Some(self.whole_word), self.part_word, other];
@@ -191,10 +218,5 @@ impl Specified for DifferenceColumn {
             && (1..=1 << (self.widths.part - 1)).contains(&i.modulus)
             && i.by_part < i.modulus
             && !(i.record.load && i.step)
-    }
-
-    /// The modulus comes with the parts that are below it.
-    fn assumes(&self, now: &Registers<Self>, i: &In<Value>) -> bool {
-        now.q.part < i.modulus
     }
 }

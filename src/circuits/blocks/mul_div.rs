@@ -148,69 +148,118 @@ impl Circuit for MulDiv {
         };
         (net, next)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let [idle, multiplies, divides] =
+            [IDLE, MULTIPLY, DIVIDE].map(|state| q.state.equals(state));
+        let restarts = next.state.equals(MULTIPLY) & next.count.is_zero();
+        let counted = next.count.equals(q.count + 1) & !next.count.is_zero();
+        let goes_on = next.state.equals(q.state) & counted;
+        let end = |bits: usize| q.count.equals(bits as u64 - 1);
+        let over = multiplies.mux(end(self.multiplier), end(self.word));
+        let mut all = vec![
+            Property::given(
+                "the divisor is below half of the range when start is high",
+                !i.start | !i.divisor.bit(self.word - 1),
+            ),
+            Property::given(
+                "the product plus the addend fits a word when start is high",
+                !i.start | self.fits(i),
+            ),
+            Property::step(
+                "a start in idle begins an operation",
+                &["state", "quotient"],
+                !(i.start & idle) | (restarts & next.quotient.equals(i.addend)),
+            ),
+            Property::step(
+                "a multiplication takes a tick per multiplier bit, a division a tick per word bit",
+                &["state", "count"],
+                idle | (over ^ goes_on),
+            ),
+            Property::step(
+                "done is high only in the tick after the last bit",
+                &["done"],
+                !(next.done ^ (!idle & next.state.equals(IDLE))),
+            ),
+            Property::always(
+                "the remainder stays below the divisor",
+                &["remainder", "by"],
+                q.by.is_zero() | q.remainder.below(q.by),
+            ),
+            Property::step(
+                "the bits divided so far equal quotient times divisor plus remainder",
+                &["quotient", "remainder"],
+                !divides | q.by.is_zero() | self.divides(q, next),
+            ),
+        ];
+        all.extend(self.helpers(q));
+        all
+    }
+}
+
+impl MulDiv {
+    /// High if the product plus the addend is below 2^Q.
+    fn fits(&self, i: &In) -> Bit {
+        // The first factor times 2^k, and high while it has lost no bit.
+        let (mut term, mut whole) = (i.multiplicand, Bit::high());
+        let (mut sum, mut fits) = (i.addend, Bit::high());
+        for k in 0..self.multiplier {
+            let added = sum + term;
+            // A sum that wraps is below its terms.
+            let kept = whole & !added.below(term);
+            let is_added = i.multiplier.bit(k);
+            fits = fits & (kept | !is_added);
+            sum = is_added.mux(added, sum);
+            whole = whole & !term.bit(self.word - 1);
+            term = term.shift_left(1);
+        }
+        fits
+    }
+
+    /// High if the edge appends the next dividend bit to the remainder, and the bit of its division
+    /// to the quotient.
+    fn divides(&self, q: &Reg<Open>, next: &Reg<Open>) -> Bit {
+        // A word of 64 bits needs no further bit, as the divisor is below half of its range.
+        let wide = |word: U| word.resize((self.word + 1).min(64));
+        let highest = q.quotient.bit(self.word - 1).word();
+        let partial = wide(q.remainder).shift_left(1) | wide(highest);
+        let taken = next.quotient.bit(0).mux(wide(q.by), 0);
+        let divided = partial.equals(wide(next.remainder) + taken);
+        let shifted = (q.quotient.shift_left(1) ^ next.quotient).shift_right(1);
+        divided & shifted.is_zero() & next.by.equals(q.by)
+    }
+
+    /// Statements about the state that the proofs of the others need.
+    fn helpers(&self, q: &Reg<Open>) -> [Property; 3] {
+        let end = |bits: usize| U::new(bits as u64 - 1, 6);
+        let in_multiply = !q.state.equals(MULTIPLY) | !end(self.multiplier).below(q.count);
+        let in_divide = !q.state.equals(DIVIDE) | !end(self.word).below(q.count);
+        [
+            Property::helper(
+                "the state is idle, multiply or divide",
+                &["state"],
+                !U::new(DIVIDE, 2).below(q.state),
+            ),
+            Property::helper(
+                "the count is below the number of bits that the state takes",
+                &["count", "state"],
+                in_multiply & in_divide,
+            ),
+            Property::helper(
+                "the divisor of the running calculation is below half of the range",
+                &["by"],
+                !q.by.bit(self.word - 1),
+            ),
+        ]
+    }
 }
 
 impl Specified for MulDiv {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step("a start in idle begins an operation", |now, next| {
-                let taken = now.i.start && now.q.state == IDLE;
-                let restarted = next.q.state == MULTIPLY && next.q.count == 0;
-                let begins = restarted && next.q.quotient == now.i.addend;
-                require(!taken || begins, ["state", "quotient"], || {
-                    "not begun".into()
-                })
-            })
-            .step(
-                "a multiplication takes a tick per multiplier bit, a division a tick per word bit",
-                |now, next| {
-                    let length = match now.q.state {
-                        MULTIPLY => self.multiplier,
-                        _ => self.word,
-                    };
-                    let (q, after) = (now.q, &next.q);
-                    let goes_on = after.state == q.state && after.count == q.count + 1;
-                    let over = q.count + 1 == length as u64;
-                    let right = q.state == IDLE || over != goes_on;
-                    require(right, ["state", "count"], || "too long or too short".into())
-                },
-            )
-            .step(
-                "done is high only in the tick after the last bit",
-                |now, next| {
-                    let ended = now.q.state != IDLE && next.q.state == IDLE;
-                    require(next.q.done == ended, ["done"], || "at a wrong time".into())
-                },
-            )
-            .always("the remainder stays below the divisor", |now| {
-                let right = now.q.by == 0 || now.q.remainder < now.q.by;
-                require(right, ["remainder", "by"], || "too large".into())
-            })
-            .step(
-                "the bits divided so far equal quotient times divisor plus remainder",
-                |now, next| {
-                    // The bits of the dividend that are in: those above, and the quotient's below.
-                    let known = |q: &Reg<Value>, bits: u64| {
-                        let low = u128::from(q.quotient) & ((1 << bits) - 1);
-                        low * u128::from(q.by) + u128::from(q.remainder)
-                    };
-                    let dividend = known(now.q, now.q.count);
-                    let bit = u128::from(now.q.quotient >> (self.word - 1));
-                    let after = known(&next.q, now.q.count + 1);
-                    let divides = now.q.state == DIVIDE && now.q.by != 0;
-                    require(
-                        after == 2 * dividend + bit || !divides,
-                        ["quotient", "remainder"],
-                        || format!("{dividend} so far, and {bit}"),
-                    )
-                },
-            )
-    }
-
+    /// Keeps the assumptions. Without `start` the other ports are not looked at.
     fn applies(&self, i: &In<Value>) -> bool {
         let least = 1 << (self.word - 1);
         let fits = i.multiplicand * i.multiplier + i.addend < 2 * least;
-        // Without `start` the other ports are not looked at.
         let words = [i.multiplicand, i.multiplier, i.addend, i.divisor];
         let given = words.iter().any(|&word| word > 0) || i.product_only;
         fits && i.divisor < least && (i.start || !given)

@@ -108,43 +108,60 @@ impl Circuit for Scaler {
         let counted = (2..=64).contains(&self.gain);
         (!counted).then(|| "a gain has a bit before the point and one behind".into())
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let taken = i.start & !q.busy & !i.clear;
+        let held = next.factor.equals(i.value) & next.bits.equals(i.gain);
+        let begun = next.busy & next.bit_index.is_zero() & held;
+        let counted = next.bit_index.equals(q.bit_index + 1) & !next.bit_index.is_zero();
+        let over = q.bit_index.equals(self.gain as u64 - 1);
+        let steps = (over ^ (next.busy & counted)) & !(over ^ next.done);
+        let runs = i.clear.mux(!next.busy & !next.done, steps);
+        // Twice a value whose highest bit is high is above every word.
+        let highest = |word: U| word.bit(self.value - 1);
+        let doubled = q.factor.shift_left(1);
+        vec![
+            Property::given(
+                "the value is below half of the range when start is high",
+                !i.start | !highest(i.value),
+            ),
+            Property::step(
+                "a start begins a product unless one is running or clear is high",
+                &["busy", "factor", "bits"],
+                !taken | begun,
+            ),
+            Property::step(
+                "each bit of the gain is used once, and done follows the last one",
+                &["bit_index", "done"],
+                q.busy.mux(runs, !next.done),
+            ),
+            Property::always(
+                "the partial product is at most twice the value",
+                &["scaled"],
+                highest(q.factor) | !doubled.below(q.scaled),
+            ),
+            Property::helper(
+                "the bit index stays below the width of a gain",
+                &["bit_index"],
+                !U::new(self.gain as u64 - 1, 6).below(q.bit_index),
+            ),
+            Property::helper(
+                "while busy is high, the partial product is at most the value",
+                &["scaled", "busy"],
+                !q.busy | !q.factor.below(q.scaled),
+            ),
+            Property::helper(
+                "the value that is being scaled is below half of the range",
+                &["factor"],
+                !highest(q.factor),
+            ),
+        ]
+    }
 }
 
 impl Specified for Scaler {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step(
-                "a start begins a product unless one is running or clear is high",
-                |now, next| {
-                    let taken = now.i.start && !now.q.busy && !now.i.clear;
-                    let begun = next.q.busy && next.q.bit_index == 0;
-                    let begun = begun && next.q.factor == now.i.value && next.q.bits == now.i.gain;
-                    require(!taken || begun, ["busy", "factor", "bits"], || {
-                        "not begun".into()
-                    })
-                },
-            )
-            .step(
-                "each bit of the gain is used once, and done follows the last one",
-                |now, next| {
-                    let bit = now.q.bit_index;
-                    let over = bit + 1 == self.gain as u64;
-                    let goes_on = next.q.busy && next.q.bit_index == bit + 1;
-                    let right = goes_on != over && next.q.done == over;
-                    let ended = !next.q.busy && !next.q.done;
-                    let right = if now.i.clear { ended } else { right };
-                    let idle = !now.q.busy && !next.q.done;
-                    require(idle || (now.q.busy && right), ["bit_index", "done"], || {
-                        "not so".into()
-                    })
-                },
-            )
-            .always("the partial product is at most twice the value", |now| {
-                let right = now.q.scaled <= 2 * now.q.factor;
-                require(right, ["scaled"], || "too large".into())
-            })
-    }
-
+    /// Keeps the assumption. Without `start` the words are not looked at.
     fn applies(&self, i: &In<Value>) -> bool {
         let given = i.value > 0 || i.gain > 0;
         i.value >> (self.value - 1) == 0 && (i.start || !given)
