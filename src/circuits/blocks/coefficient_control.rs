@@ -91,56 +91,51 @@ impl Circuit for CoefficientControl {
         };
         (net, next)
     }
-}
 
-impl Specified for CoefficientControl {
-    fn invariants(&self) -> Invariants<'_, Self> {
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
         let bits = self.coefficient as u64;
-        Invariants::<Self>::new()
-            .step(
+        let taken = i.step & !i.halt & !q.busy;
+        let begins = next.busy & next.bit_index.is_zero() & w.copy;
+        let bit = q.bit_index;
+        let goes_on = next.busy & next.bit_index.equals(bit + 1);
+        let counted = bit.below(bits).mux(goes_on, !next.busy);
+        let fraction = q.busy & bit.below(bits - 2);
+        let top = q.busy & bit.equals(bits - 1);
+        let commit = q.busy & bit.equals(bits) & !i.halt;
+        vec![
+            Property::step(
                 "a step begins if and only if step is high, none is running, and halt is low",
-                |now, next| {
-                    let taken = now.i.step && !now.i.halt && !now.q.busy;
-                    let begins = next.q.busy && next.q.bit_index == 0 && now.w.copy;
-                    require(taken == begins, ["busy", "bit_index", "copy"], || {
-                        "not so".into()
-                    })
-                },
-            )
-            .step("halt ends a step", |now, next| {
-                let right = !next.q.busy && !next.q.done;
-                require(right || !now.i.halt, ["busy", "done"], || "goes on".into())
-            })
-            .step("each bit comes once, in order", move |now, next| {
-                let under_way = now.q.busy && !now.i.halt;
-                let bit = now.q.bit_index;
-                let expected = (bit < bits).then_some(bit + 1);
-                let after = next.q.busy.then_some(next.q.bit_index);
-                let right = after == expected && next.q.done == (bit == bits);
-                require(right || !under_way, ["bit_index", "done"], || {
-                    format!("{after:?} after {bit}")
-                })
-            })
-            .step("done comes only at the end of a step", |now, next| {
-                let right = next.q.done <= now.q.busy;
-                require(right, ["done"], || "without a step".into())
-            })
-            .always(
+                &["busy", "bit_index", "copy"],
+                !(taken ^ begins),
+            ),
+            Property::step(
+                "halt ends a step",
+                &["busy", "done"],
+                !i.halt | (!next.busy & !next.done),
+            ),
+            Property::step(
+                "each bit comes once, in order",
+                &["bit_index", "done"],
+                !q.busy | i.halt | (counted & !(next.done ^ bit.equals(bits))),
+            ),
+            Property::step(
+                "done comes only at the end of a step",
+                &["done"],
+                !next.done | q.busy,
+            ),
+            Property::always(
                 "the fraction bits come first, then the bit of weight one, the sign and commit",
-                move |now| {
-                    let (bit, w) = (now.q.bit_index, now.w);
-                    let kinds = [w.fraction, w.top, w.commit];
-                    let count = kinds.iter().filter(|kind| **kind).count();
-                    let expected = match now.q.busy {
-                        false => [false; 3],
-                        true => [bit + 2 < bits, bit + 1 == bits, bit == bits && !now.i.halt],
-                    };
-                    require(
-                        kinds == expected && count <= 1,
-                        ["fraction", "top", "commit"],
-                        || format!("bit {bit}"),
-                    )
-                },
-            )
+                &["fraction", "top", "commit"],
+                !(w.fraction ^ fraction) & !(w.top ^ top) & !(w.commit ^ commit),
+            ),
+            Property::helper(
+                "the bit index is at most the width of a coefficient",
+                &["bit_index"],
+                !U::new(bits, 6).below(bit),
+            ),
+        ]
     }
 }
+
+impl Specified for CoefficientControl {}

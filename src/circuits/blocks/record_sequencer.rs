@@ -170,127 +170,117 @@ impl Circuit for RecordSequencer {
         };
         (net, next)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let fetches = next.state.equals(FETCH) & !q.state.equals(FETCH);
+        let mut all = vec![Property::step(
+            "every transition is one of the table of states",
+            &["state"],
+            next.state.equals(self.after(i, q)),
+        )];
+        all.extend(self.points(now));
+        all.push(Property::step(
+            "take is high in the first tick of a fetch, and only there",
+            &["take", "state"],
+            !(next.take ^ fetches),
+        ));
+        all.extend(Self::flags(now));
+        all.push(Property::step(
+            "words 0 and 1 of a record load the header and the modulus",
+            &["kind", "rests", "remaining", "modulus"],
+            self.loads(i, q, next),
+        ));
+        all
+    }
 }
 
-/// Returns the next state by the state chart; `None` if the state stays.
-fn after(q: &Reg<Value>, i: &In<Value>, waits: bool) -> Option<u64> {
-    let on = |condition: bool, state| condition.then_some(state);
-    let next = on(i.available, FETCH).unwrap_or(IDLE);
-    match q.state {
-        _ if i.halt => Some(IDLE),
-        IDLE => on(i.start && i.available, FETCH),
-        FETCH if q.first || q.remaining == 0 => on(i.loaded, READY),
-        FETCH => on(i.loaded, STEP),
-        STEP if q.kind == ARC || waits => Some(ROTATE),
-        STEP => Some(READY),
-        ROTATE => on(i.rotated, READY),
-        _ if q.remaining == 0 => on(i.sample, next),
-        _ => on(i.sample, STEP),
+impl RecordSequencer {
+    /// Returns the next state by the state chart.
+    fn after(&self, i: &In, q: &Reg<Open>) -> U {
+        let to = |state: u64| U::new(state, 3);
+        let empty = q.remaining.is_zero();
+        let loaded = (q.first | empty).mux(to(READY), to(STEP));
+        let turns = q.kind.equals(ARC) | self.waits;
+        let ended = i.available.mux(to(FETCH), to(IDLE));
+        let table = [
+            (IDLE, i.start & i.available, to(FETCH)),
+            (FETCH, i.loaded, loaded),
+            (STEP, Bit::high(), turns.mux(to(ROTATE), to(READY))),
+            (ROTATE, i.rotated, to(READY)),
+            (READY, i.sample, empty.mux(ended, to(STEP))),
+        ];
+        let moved = table.into_iter().fold(q.state, |state, (from, on, to)| {
+            (q.state.equals(from) & on).mux(to, state)
+        });
+        i.halt.mux(IDLE, moved)
+    }
+
+    /// High if the words 0 and 1 of a record load the registers of the segment, and nothing else.
+    fn loads(&self, i: &In, q: &Reg<Open>, next: &Reg<Open>) -> Bit {
+        let data = i.record.data;
+        let [header, second] = [0, 1].map(|word| i.record.load & i.record.word.equals(word));
+        let kind = next.kind.equals(header.mux(data.resize(2), q.kind));
+        let rests = !(next.rests ^ header.mux(data.bit(2), q.rests));
+        let samples = next.remaining.equals(data.slice(3, self.samples));
+        let modulus = second.mux(data.resize(self.modulus), q.modulus);
+        kind & rests & (samples | !header) & next.modulus.equals(modulus)
+    }
+
+    /// Statements about the points of a segment.
+    fn points(&self, now: &Moment<Self>) -> [Property; 2] {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let header = i.record.load & i.record.word.is_zero();
+        let steps = q.state.equals(STEP) & !i.halt;
+        let arc = q.kind.equals(ARC);
+        let left = steps.mux(q.remaining - 1, q.remaining);
+        let counted = header | next.remaining.equals(left);
+        let advances = !(w.advance ^ (steps & !arc));
+        let rotates = !(next.rotate ^ (steps & (arc | self.waits)));
+        let due = i.sample & q.state.equals(READY) & !i.halt;
+        [
+            Property::step(
+                "each step requests one point and decrements the remaining samples",
+                &["remaining", "advance", "rotate"],
+                advances & rotates & counted,
+            ),
+            Property::step(
+                "a point becomes the command if and only if a sample comes while it is ready",
+                &["present", "sampled"],
+                !(w.present ^ due) & !(next.sampled ^ due),
+            ),
+        ]
+    }
+
+    /// Statements about the flags of a path.
+    fn flags(now: &Moment<Self>) -> [Property; 3] {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let is = |state: u64| q.state.equals(state);
+        let begins = is(IDLE) & next.state.equals(FETCH);
+        let makes = is(FETCH) | is(STEP) | is(ROTATE);
+        let missed = i.sample & !i.halt & makes & !q.first;
+        let stops = !is(IDLE) & next.state.equals(IDLE) & !i.halt & !q.rests;
+        [
+            Property::step(
+                "first is high from a path's beginning until its first point becomes the command",
+                &["first"],
+                !(next.first ^ (begins | (q.first & !next.sampled))),
+            ),
+            Property::step(
+                "late is set if a sample comes while the next point is being computed",
+                &["late"],
+                !(next.late ^ (missed | (q.late & !begins))),
+            ),
+            Property::step(
+                "starved is set if the sequencer becomes idle without a rest and without a halt",
+                &["starved"],
+                !(next.starved ^ (stops | (q.starved & !begins))),
+            ),
+        ]
     }
 }
 
 impl Specified for RecordSequencer {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let begins = |q: &Reg<Value>, next: &Reg<Value>| q.state == IDLE && next.state == FETCH;
-        Invariants::<Self>::new()
-            .step(
-                "every transition is one of the table of states",
-                |now, next| {
-                    let expected = after(now.q, now.i, self.waits).unwrap_or(now.q.state);
-                    require(next.q.state == expected, ["state"], || {
-                        format!("not {}", STATES[expected as usize])
-                    })
-                },
-            )
-            .step(
-                "each step requests one point and decrements the remaining samples",
-                |now, next| {
-                    let header = now.i.record.load && now.i.record.word == 0;
-                    let steps = now.q.state == STEP && !now.i.halt;
-                    let arc = now.q.kind == ARC;
-                    let words = 1 << self.samples;
-                    let left = (now.q.remaining + words - u64::from(steps)) % words;
-                    let counted = header || next.q.remaining == left;
-                    let right = now.see(|s| s.w.advance) == (steps && !arc)
-                        && next.q.rotate == (steps && (arc || self.waits));
-                    require(right && counted, ["remaining", "advance", "rotate"], || {
-                        format!("{left} left")
-                    })
-                },
-            )
-            .step(
-                "a point becomes the command if and only if a sample comes while it is ready",
-                |now, next| {
-                    let due = now.i.sample && now.q.state == READY && !now.i.halt;
-                    let right = now.see(|s| s.w.present) == due && next.q.sampled == due;
-                    require(right, ["present", "sampled"], || "not so".into())
-                },
-            )
-            .step(
-                "take is high in the first tick of a fetch, and only there",
-                |now, next| {
-                    let fetches = next.q.state == FETCH && now.q.state != FETCH;
-                    require(next.q.take == fetches, ["take", "state"], || {
-                        "not so".into()
-                    })
-                },
-            )
-            .step(
-                "first is high from a path's beginning until its first point becomes the command",
-                move |now, next| {
-                    let kept = now.q.first && !next.q.sampled;
-                    let expected = begins(now.q, &next.q) || kept;
-                    require(next.q.first == expected, ["first"], || {
-                        format!("not {expected}")
-                    })
-                },
-            )
-            .step(
-                "late is set if a sample comes while the next point is being computed",
-                move |now, next| {
-                    let making = [FETCH, STEP, ROTATE].contains(&now.q.state);
-                    let missed = now.i.sample && !now.i.halt && making && !now.q.first;
-                    let expected = missed || (now.q.late && !begins(now.q, &next.q));
-                    require(next.q.late == expected, ["late"], || {
-                        format!("not {expected}")
-                    })
-                },
-            )
-            .step(
-                "starved is set if the sequencer becomes idle without a rest and without a halt",
-                move |now, next| {
-                    let idles = now.q.state != IDLE && next.q.state == IDLE;
-                    let moving = idles && !now.i.halt && !now.q.rests;
-                    let expected = moving || (now.q.starved && !begins(now.q, &next.q));
-                    require(next.q.starved == expected, ["starved"], || {
-                        format!("not {expected}")
-                    })
-                },
-            )
-            .step(
-                "words 0 and 1 of a record load the header and the modulus",
-                |now, next| {
-                    let word = now.i.record.load.then_some(now.i.record.word);
-                    let data = now.i.record.data;
-                    let header = match word {
-                        Some(0) => [data % 4, data / 4 % 2],
-                        _ => [now.q.kind, u64::from(now.q.rests)],
-                    };
-                    let samples = data / 8 % (1 << self.samples);
-                    let counted = word != Some(0) || next.q.remaining == samples;
-                    let modulus = match word {
-                        Some(1) => data % (1 << self.modulus),
-                        _ => now.q.modulus,
-                    };
-                    let same = [next.q.kind, u64::from(next.q.rests)] == header;
-                    let right = same && counted && next.q.modulus == modulus;
-                    require(right, ["kind", "rests", "remaining", "modulus"], || {
-                        "not so".into()
-                    })
-                },
-            )
-    }
-
     /// A word is loaded in a fetch; one from 2 on does not differ from another such.
     fn applies(&self, i: &In<Value>) -> bool {
         i.record.is_among(&[0, 1, 2]) && !(i.record.load && i.loaded)

@@ -106,86 +106,60 @@ impl Circuit for QuadratureCounter {
         };
         (net, next)
     }
-}
 
-/// The quarter of the encoder's period, 0 to 3 in the direction up.
-fn quarter(a: bool, b: bool) -> u32 {
-    match (a, b) {
-        (false, false) => 0,
-        (true, false) => 1,
-        (true, true) => 2,
-        (false, true) => 3,
-    }
-}
-
-/// The quarter that a flip-flop of each channel holds.
-fn held(q: &Reg<Value>, place: usize) -> u32 {
-    let level = |sync: u64| sync >> place & 1 == 1;
-    quarter(level(q.sync_a), level(q.sync_b))
-}
-
-/// Quarters turned between the previous and the present levels, 0 to 3; none before they are real.
-fn turned(q: &Reg<Value>) -> u32 {
-    match q.samples {
-        3 => (held(q, PRESENT) + 4 - held(q, PREVIOUS)) % 4,
-        _ => 0,
-    }
-}
-
-impl Specified for QuadratureCounter {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let [forth, half, back] = [1, 2, 3].map(|quarters| turned(q).equals(quarters));
+        let moved = forth.mux(q.position + 1, back.mux(q.position - 1, q.position));
+        let taken = held(next, 0).equals(quarter(i.a, i.b));
+        let present = held(next, PRESENT).equals(held(q, 0));
+        let previous = held(next, PREVIOUS).equals(held(q, PRESENT));
+        let filled = q.samples.equals(FILLED);
+        let samples = filled.mux(q.samples, q.samples + 1);
+        vec![
+            Property::step(
                 "only a quarter period changes the position, by one, and clear sets it to 0",
-                |now, next| {
-                    let moved = match turned(now.q) {
-                        1 => 1,
-                        3 => -1,
-                        _ => 0,
-                    };
-                    let expected = match now.i.clear {
-                        true => 0,
-                        false => now.q.position + moved,
-                    };
-                    let right = (next.q.position - expected).rem_euclid(1 << self.width) == 0;
-                    require(right, ["position", "sync_a", "sync_b"], || {
-                        format!("{} after {}", next.q.position, now.q.position)
-                    })
-                },
-            )
-            .always(
+                &["position", "sync_a", "sync_b"],
+                next.position.equals(i.clear.mux(0, moved)),
+            ),
+            Property::always(
                 "illegal is high if and only if the encoder moves by half a period in one tick",
-                |now| {
-                    let half = turned(now.q) == 2;
-                    require(now.w.illegal == half, ["illegal"], || {
-                        format!("{} quarters", turned(now.q))
-                    })
-                },
-            )
-            .step(
+                &["illegal"],
+                !(w.illegal ^ half),
+            ),
+            Property::step(
                 "an illegal step sets lost, which stays high until clear",
-                |now, next| {
-                    let lost = (now.q.lost || turned(now.q) == 2) && !now.i.clear;
-                    require(next.q.lost == lost, ["lost"], || {
-                        format!("{:?}", next.q.lost)
-                    })
-                },
-            )
-            .step(
+                &["lost"],
+                !(next.lost ^ ((q.lost | half) & !i.clear)),
+            ),
+            Property::step(
                 "a level advances one flip-flop per tick, and samples counts the first three",
-                |now, next| {
-                    let (q, i) = (now.q, now.i);
-                    let passed = held(&next.q, 0) == quarter(i.a, i.b)
-                        && held(&next.q, PRESENT) == held(q, 0)
-                        && held(&next.q, PREVIOUS) == held(q, PRESENT)
-                        && next.q.samples == 3.min(q.samples + 1);
-                    require(passed, ["sync_a", "sync_b", "samples"], || {
-                        "not those of a tick ago".into()
-                    })
-                },
-            )
+                &["sync_a", "sync_b", "samples"],
+                taken & present & previous & next.samples.equals(samples),
+            ),
+        ]
     }
 }
+
+/// Returns the quarter of the encoder's period, 0 to 3 in the direction up: A alone is the first
+/// one, both channels the second, B alone the third.
+fn quarter(a: Bit, b: Bit) -> U {
+    b.word().join((a ^ b).word())
+}
+
+/// Returns the quarter that a flip-flop of each channel holds.
+fn held(q: &Reg<Open>, place: usize) -> U {
+    quarter(q.sync_a.bit(place), q.sync_b.bit(place))
+}
+
+/// Returns the quarters turned between the previous and the present levels, 0 to 3; none before
+/// they are real.
+fn turned(q: &Reg<Open>) -> U {
+    let way = held(q, PRESENT) - held(q, PREVIOUS);
+    q.samples.equals(FILLED).mux(way, 0)
+}
+
+impl Specified for QuadratureCounter {}
 
 #[cfg(test)]
 mod tests;
