@@ -13,7 +13,6 @@
 //! Departure: both commands change at the same edge, when y(n) is ready, so that they always
 //! belong together.
 
-use super::wrapped;
 use crate::prelude::*;
 
 /// Axis switch; a command shows in the tick after `load`.
@@ -72,27 +71,21 @@ impl Circuit for AxisSwitch {
         };
         (Net { slave_position }, next)
     }
-}
 
-impl Specified for AxisSwitch {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new().step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let slave = i.slave_from + i.integral;
+        let shows = |x: I, y: I| next.x.equals(x) & next.y.equals(y);
+        let routed = i
+            .swapped
+            .mux(shows(slave, i.position), shows(i.position, slave));
+        let cleared = next.x.is_zero() & next.y.is_zero();
+        vec![Property::step(
             "load gives each axis its command, clear sets both to 0, and otherwise both stay",
-            |now, next| {
-                let i = now.i;
-                let slave = wrapped(i.slave_from + i.integral, self.position);
-                let commands = match i.swapped {
-                    false => (i.position, slave),
-                    true => (slave, i.position),
-                };
-                let expected = match (i.clear, i.load) {
-                    (true, _) => (0, 0),
-                    (false, true) => commands,
-                    (false, false) => (now.q.x, now.q.y),
-                };
-                let right = (next.q.x, next.q.y) == expected;
-                require(right, ["x", "y"], || format!("{expected:?} expected"))
-            },
-        )
+            &["x", "y"],
+            i.clear.mux(cleared, i.load.mux(routed, shows(q.x, q.y))),
+        )]
     }
 }
+
+impl Specified for AxisSwitch {}

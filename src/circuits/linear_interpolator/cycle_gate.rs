@@ -43,18 +43,16 @@ impl Circuit for CycleGate {
         let hold = i.exact_stop & !(i.in_position_x & i.in_position_y);
         (Nothing, Reg { hold })
     }
-}
 
-impl Specified for CycleGate {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new().step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, next) = (&now.i, &now.next.q);
+        let moves = !i.in_position_x | !i.in_position_y;
+        vec![Property::step(
             "hold is high one tick after exact_stop is high and an axis is not in position",
-            |now, next| {
-                let i = now.i;
-                let there = i.in_position_x && i.in_position_y;
-                let right = next.q.hold == (i.exact_stop && !there);
-                require(right, ["hold"], || format!("{:?}", next.q.hold))
-            },
-        )
+            &["hold"],
+            !(next.hold ^ (i.exact_stop & moves)),
+        )]
     }
 }
+
+impl Specified for CycleGate {}

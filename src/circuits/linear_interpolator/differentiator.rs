@@ -12,7 +12,6 @@
 //! Departure: the delay element is loaded with the start at the beginning of a positioning cycle,
 //! so that the first increment is that of the first scan.
 
-use super::wrapped;
 use crate::prelude::*;
 
 /// Differentiator 21; without latency.
@@ -57,30 +56,25 @@ impl Circuit for Differentiator {
         let lagged = i.load.mux(i.from, i.valid.mux(i.position, q.lagged));
         (Net { increment }, Reg { lagged })
     }
-}
 
-impl Specified for Differentiator {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .always("increment plus lagged equals position", |now| {
-                let sum = now.w.increment + now.q.lagged;
-                let right = wrapped(sum - now.i.position, self.position) == 0;
-                require(right, ["increment", "lagged", "position"], || {
-                    format!("{sum}")
-                })
-            })
-            .step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let kept = !i.load & !i.valid & next.lagged.equals(q.lagged);
+        let loaded = i.load & next.lagged.equals(i.from);
+        let moved = !i.load & i.valid & next.lagged.equals(i.position);
+        vec![
+            Property::always(
+                "increment plus lagged equals position",
+                &["increment", "lagged", "position"],
+                (w.increment + q.lagged).equals(i.position),
+            ),
+            Property::step(
                 "lagged takes from at load, position at valid without load, and otherwise stays",
-                |now, next| {
-                    let expected = match (now.i.load, now.i.valid) {
-                        (true, _) => now.i.from,
-                        (false, true) => now.i.position,
-                        (false, false) => now.q.lagged,
-                    };
-                    require(next.q.lagged == expected, ["lagged"], || {
-                        format!("{:?}", next.q.lagged)
-                    })
-                },
-            )
+                &["lagged"],
+                loaded | moved | kept,
+            ),
+        ]
     }
 }
+
+impl Specified for Differentiator {}

@@ -10,9 +10,7 @@
 //! ```
 
 use super::{Integrator, Rule, integrator};
-use crate::hdl::Registers;
 use crate::prelude::*;
-use crate::sim::Sample;
 
 /// Integrator and the sum of its increments.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
@@ -104,106 +102,136 @@ impl Circuit for LineLaw {
         };
         (net, next)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (q, w) = (&now.q, &now.w);
+        let (master, slave) = (q.held_master, q.held_slave);
+        let left = w.remainder;
+        let less = left.is_zero() | left.magnitude().below(master.magnitude());
+        let opposite = left.is_negative() ^ master.is_negative();
+        let signed = match self.integrator.rule {
+            Rule::Floor | Rule::Centred => left.is_zero() | master.is_zero() | !opposite,
+            // The sign is that of the dividend, which is not kept.
+            Rule::Truncating => Bit::high(),
+        };
+        let way = |from: I, to: I| to.minus(from).magnitude();
+        let (way_slave, way_master) =
+            (way(q.integral_before, w.integral), way(q.sum_before, q.sum));
+        let shorter = !master.magnitude().below(slave.magnitude());
+        let [law, end, near] = self.law(now);
+        let mut all = self.given(now).to_vec();
+        all.extend([
+            law,
+            Property::always(
+                "B is less than Δx in magnitude, and has the sign that the rounding rule requires",
+                &["remainder"],
+                !settled(now) | (less & signed),
+            ),
+            end,
+            Property::always(
+                "a slave with no more distance than its master never moves farther in a scan",
+                &["integral", "integral_before"],
+                !(settled(now) & shorter) | !way_master.below(way_slave),
+            ),
+            near,
+        ]);
+        all
+    }
 }
 
-/// Returns true if `value` lies between 0 and `end`, both included.
-fn on_the_way(value: i64, end: i64) -> bool {
-    (0.min(end)..=0.max(end)).contains(&value)
+/// High if `value` lies between 0 and `end`, both included.
+fn on_the_way(value: I, end: I) -> Bit {
+    let same_way = !(value.is_negative() ^ end.is_negative());
+    let beyond = end.magnitude().below_any(value.magnitude());
+    value.is_zero() | (same_way & !beyond)
 }
 
-/// Returns true if no division is running.
-fn settled(now: &Sample<'_, LineLaw>) -> bool {
+/// High if no division is running.
+fn settled(now: &Moment<LineLaw>) -> Bit {
     !now.p.integrator.p.accumulator.q.busy
 }
 
-/// Δx, Δy, Σδx, I and B.
-fn words(now: &Sample<'_, LineLaw>) -> [i64; 5] {
-    let (q, w) = (now.q, now.w);
-    [q.held_master, q.held_slave, q.sum, w.integral, w.remainder]
+impl LineLaw {
+    /// Returns the product of two words, in a word that is wide enough for two such and a further
+    /// word.
+    fn product(&self, a: I, b: I) -> I {
+        a.times(b, 2 * self.integrator.position)
+    }
+
+    /// Returns B0, the remainder at the beginning of a cycle.
+    fn first(&self, master: I) -> I {
+        match self.integrator.rule {
+            Rule::Centred => {
+                let half = master.magnitude().shift_right(1).signed();
+                half.negated_by(master.is_negative())
+            }
+            Rule::Floor | Rule::Truncating => I::new(0, self.integrator.position),
+        }
+    }
+
+    /// Statements about the increments.
+    fn given(&self, now: &Moment<Self>) -> [Property; 3] {
+        let (i, q) = (&now.i, &now.q);
+        let starts = i.clear | i.start;
+        [
+            Property::given(
+                "clear and start are never high together",
+                !(i.clear & i.start),
+            ),
+            Property::given(
+                "clear and start are low while a division is running",
+                settled(now) | !starts,
+            ),
+            Property::given(
+                "the sum of the increments stays on the segment",
+                !i.start | on_the_way(q.sum.plus(i.increment), q.held_master),
+            ),
+        ]
+    }
+
+    /// Statements that tie the integral to the line.
+    fn law(&self, now: &Moment<Self>) -> [Property; 3] {
+        let (q, w) = (&now.q, &now.w);
+        let (master, slave) = (q.held_master, q.held_slave);
+        let width = 2 * self.integrator.position;
+        let first = self.first(master);
+        let moved = self.product(master, w.integral);
+        let ideal = self.product(slave, q.sum);
+        let left = (moved + w.remainder.resize(width)).equals(ideal + first.resize(width));
+        let arrived = q.sum.equals(master) & !master.is_zero();
+        let at_end = w.integral.equals(slave) & w.remainder.equals(first);
+        let off = (moved - ideal).magnitude();
+        let near = match self.integrator.rule {
+            Rule::Centred => !master.magnitude().below_any(off.shift_left(1)),
+            Rule::Floor | Rule::Truncating => off.is_zero() | off.below_any(master.magnitude()),
+        };
+        [
+            Property::always(
+                "after every scan, Δx·I + B equals Δy·Σδx + B0",
+                &["integral", "remainder", "sum"],
+                !settled(now) | left,
+            ),
+            Property::always(
+                "at the end of the line, I equals Δy and B equals B0",
+                &["integral", "remainder"],
+                !(settled(now) & arrived) | at_end,
+            ),
+            Property::always(
+                "the slave stays within one step of the line",
+                &["integral"],
+                !settled(now) | near,
+            ),
+        ]
+    }
 }
 
 impl Specified for LineLaw {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let rule = self.integrator.rule;
-        let first = move |master: i64| if rule == Rule::Centred { master / 2 } else { 0 };
-        Invariants::<Self>::new()
-            .always(
-                "after every scan, Δx·I + B equals Δy·Σδx + B0",
-                move |now| {
-                    let [master, slave, sum, integral, remainder] = words(now);
-                    let first = first(master);
-                    let right = master * integral + remainder == slave * sum + first;
-                    let signals = ["integral", "remainder", "sum"];
-                    require(!settled(now) || right, signals, || {
-                        format!("{master}·{integral} + {remainder} is not {slave}·{sum} + {first}")
-                    })
-                },
-            )
-            .always(
-                "B is less than Δx in magnitude, and has the sign that the rounding rule requires",
-                move |now| {
-                    let [master, slave, sum, _, remainder] = words(now);
-                    let sign = match rule {
-                        Rule::Floor | Rule::Centred => master.signum(),
-                        // Sign of this division's dividend, which a remainder other than 0 shares.
-                        Rule::Truncating => remainder.signum(),
-                    };
-                    let right = remainder.abs() < master.abs().max(1) && remainder * sign >= 0;
-                    require(!settled(now) || right, ["remainder"], || {
-                        format!("{remainder} with Δ {master}, {slave} after {sum}")
-                    })
-                },
-            )
-            .always(
-                "at the end of the line, I equals Δy and B equals B0",
-                move |now| {
-                    let [master, slave, sum, integral, remainder] = words(now);
-                    let first = first(master);
-                    let arrived = settled(now) && sum == master && master != 0;
-                    let right = (integral, remainder) == (slave, first);
-                    require(!arrived || right, ["integral", "remainder"], || {
-                        format!("ends at {integral}, {remainder}, not at {slave}, {first}")
-                    })
-                },
-            )
-            .always(
-                "a slave with no more distance than its master never moves farther in a scan",
-                |now| {
-                    let [master, slave, sum, integral, _] = words(now);
-                    let slave_moved = (integral - now.q.integral_before).abs();
-                    let right = slave_moved <= (sum - now.q.sum_before).abs();
-                    let meant = settled(now) && slave.abs() <= master.abs();
-                    require(!meant || right, ["integral", "integral_before"], || {
-                        format!("moved by {slave_moved}")
-                    })
-                },
-            )
-            .always("the slave stays within one step of the line", move |now| {
-                let [master, slave, sum, integral, _] = words(now);
-                let off = (master * integral - slave * sum).abs();
-                let right = match rule {
-                    Rule::Centred => 2 * off <= master.abs(),
-                    Rule::Floor | Rule::Truncating => off < master.abs().max(1),
-                };
-                require(!settled(now) || right, ["integral"], || {
-                    format!("{off} of {master}")
-                })
-            })
-    }
-
-    /// Words are looked at with their strobes only.
+    /// Keeps an assumption. Words are looked at with their strobes only.
     fn applies(&self, i: &In<Value>) -> bool {
         let quiet = |strobe: bool, word: i64| strobe || word == 0;
         quiet(i.clear, i.master)
             && quiet(i.clear, i.slave)
             && quiet(i.start, i.increment)
             && !(i.clear && i.start)
-    }
-
-    /// Increments, forth or back, stay on the segment; a cycle begins when nothing is divided.
-    fn assumes(&self, now: &Registers<Self>, i: &In<Value>) -> bool {
-        let busy = now.p.integrator.p.accumulator.q.busy;
-        let sum = now.q.sum + i.increment;
-        (!busy || !i.clear && !i.start) && (!i.start || on_the_way(sum, now.q.held_master))
     }
 }

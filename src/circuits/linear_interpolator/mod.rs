@@ -55,9 +55,3 @@ pub use sequencer::{MasterAxis, Sequencer};
 pub use target_data::TargetData;
 pub use trapezoid::Trapezoid;
 pub use widths::{LoopWidths, Widths};
-
-/// Returns a number wrapped to a signed word of `width` bits.
-fn wrapped(number: i64, width: usize) -> i64 {
-    let unused = 64 - width;
-    number << unused >> unused
-}

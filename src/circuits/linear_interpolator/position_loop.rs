@@ -14,7 +14,7 @@
 //! A level of the encoder that is at the pin in tick n is in the feedback of a scan from tick n +
 //! 3 on, and in the reference a tick after that scan.
 
-use super::{LoopWidths, PositionControl, position_control, wrapped};
+use super::{LoopWidths, PositionControl, position_control};
 use crate::circuits::blocks::{QuadratureCounter, quadrature_counter};
 use crate::prelude::*;
 
@@ -96,48 +96,41 @@ impl Circuit for PositionLoop {
         };
         (net, Nothing)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, w, counter) = (&now.i, &now.w, &now.p.counter.q);
+        let cleared = &now.next.p.counter.q;
+        let drive = now.next.p.control.q.speed_ref;
+        let way = i.command - counter.position;
+        let moves = !way.is_zero() & !i.gain.is_zero();
+        let towards = moves & !(drive.is_negative() ^ way.is_negative());
+        let there = counter.position.equals(i.command);
+        vec![
+            Property::step(
+                "a scan sets speed_ref towards the command, and to 0 at the command",
+                &["speed_ref", "command"],
+                !i.scan | drive.is_zero() | towards,
+            ),
+            Property::step(
+                "between scans, speed_ref keeps its value",
+                &["speed_ref", "scan"],
+                i.scan | drive.equals(now.p.control.q.speed_ref),
+            ),
+            Property::step(
+                "clear sets feedback to 0 and resets lost",
+                &["feedback", "lost"],
+                !i.clear | (cleared.position.is_zero() & !cleared.lost),
+            ),
+            Property::always(
+                "with a window of 0, in_position is high if and only if feedback equals command",
+                &["in_position", "feedback"],
+                !i.window.is_zero() | !(w.in_position ^ there),
+            ),
+        ]
+    }
 }
 
 impl Specified for PositionLoop {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step(
-                "a scan sets speed_ref towards the command, and to 0 at the command",
-                |now, next| {
-                    let way = now.i.command - now.p.counter.q.position;
-                    let way = wrapped(way, self.widths.position);
-                    let (drive, gain) = (next.p.control.q.speed_ref, now.i.gain);
-                    let right =
-                        drive.signum() * way.signum() >= 0 && (way != 0 && gain != 0 || drive == 0);
-                    require(!now.i.scan || right, ["speed_ref", "command"], || {
-                        format!("{drive} to go {way}")
-                    })
-                },
-            )
-            .step("between scans, speed_ref keeps its value", |now, next| {
-                let held = next.p.control.q.speed_ref == now.p.control.q.speed_ref;
-                require(now.i.scan || held, ["speed_ref", "scan"], || {
-                    "changed by itself".into()
-                })
-            })
-            .step("clear sets feedback to 0 and resets lost", |now, next| {
-                let counter = &next.p.counter.q;
-                let cleared = counter.position == 0 && !counter.lost;
-                require(!now.i.clear || cleared, ["feedback", "lost"], || {
-                    "not cleared".into()
-                })
-            })
-            .always(
-                "with a window of 0, in_position is high if and only if feedback equals command",
-                |now| {
-                    let there = now.i.command == now.p.counter.q.position;
-                    let said = now.w.in_position;
-                    let right = now.i.window != 0 || said == there;
-                    require(right, ["in_position", "feedback"], || format!("{said}"))
-                },
-            )
-    }
-
     /// Windows 0 and 1 only: the others are those of the position control.
     fn applies(&self, i: &In<Value>) -> bool {
         i.window < 2

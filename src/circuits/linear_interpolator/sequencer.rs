@@ -20,7 +20,6 @@
 //! Where a fixed master axis does not move, the other one leads, because the integrator would
 //! divide by 0.
 
-use crate::hdl::Registers;
 use crate::prelude::*;
 use serde::Deserialize;
 
@@ -283,6 +282,8 @@ impl Circuit for Sequencer {
         let starts = next.state.equals(BEGIN);
         let waits = !i.pattern_active | i.pattern_ready;
         let cleared = i.clear & idle;
+        let no_target = i.target_x.is_zero() & i.target_y.is_zero();
+        let no_words = no_target & i.x.is_zero() & i.y.is_zero();
         let kept = (!q.late | next.late) & (!q.refused | next.refused);
         vec![
             Property::always(
@@ -346,6 +347,10 @@ impl Circuit for Sequencer {
                 &["late", "refused", "home"],
                 !(cleared ^ w.home) & (kept | cleared),
             ),
+            Property::narrowing(
+                "target and commands are 0 unless the state is fetch or plan",
+                fetch | plan | no_words,
+            ),
         ]
     }
 }
@@ -364,11 +369,6 @@ impl Specified for Sequencer {
             i.load,
         ];
         words_are_zero(i) || !strobes.contains(&true)
-    }
-
-    /// Target and commands are looked at while a cycle is prepared only.
-    fn assumes(&self, now: &Registers<Self>, i: &In<Value>) -> bool {
-        matches!(now.q.state, FETCH | PLAN) || words_are_zero(i)
     }
 }
 

@@ -15,6 +15,10 @@
 use super::Widths;
 use crate::prelude::*;
 
+/// Words of a buffer that a property compares one by one; of a longer buffer it reads only the word
+/// that is written.
+const MOST_WORDS: usize = 256;
+
 /// Names of the settings of a target: one for both axes, or X's and Y's.
 const SPEED: &[&str] = &["speed", "speed_y"];
 const ACCELERATION_TIME: &[&str] = &["acceleration_time", "acceleration_time_y"];
@@ -161,107 +165,124 @@ impl Circuit for TargetData {
         };
         (net, next)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let (at, to) = (q.read_address, q.write_address);
+        let waiting = to - at;
+        let most = u64::MAX.cut(self.widths.address);
+        let (empty, full) = (waiting.is_zero(), waiting.equals(most));
+        let pops = i.pop & !empty & !i.flush;
+        let pushes = i.push & (!full | i.flush);
+        let reads_on = i.flush.mux(to, pops.mux(at + 1, at));
+        let is_at = next.read_address.equals(reads_on);
+        let is_to = next.write_address.equals(pushes.mux(to + 1, to));
+        let fields = fields(now);
+        let stored = fields.iter().map(|field| field.stores(pushes, to));
+        let shown = fields.iter().map(|field| field.shows(pops, at));
+        vec![
+            Property::step(
+                "push appends a target, pop removes the oldest, and flush removes all",
+                &["write_address", "read_address", "xs", "ys"],
+                is_at & is_to & all(stored),
+            ),
+            Property::step(
+                "the outputs hold the target that was popped last",
+                &["target_x", "target_y"],
+                all(shown),
+            ),
+            Property::always(
+                "ready is high unless the queue is full, and available unless it is empty",
+                &["ready", "available"],
+                (w.ready ^ full) & (w.available ^ empty),
+            ),
+        ]
+    }
 }
 
-impl TargetData {
-    /// A target as numbers, X first: the bits of its position, then its settings.
-    fn fields<'a>(
-        &self,
-        position: [i64; 2],
-        settings: impl IntoIterator<Item = &'a u64>,
-    ) -> Vec<u64> {
-        let bits = u64::MAX >> (64 - self.widths.position);
-        let position = position.map(|axis| axis as u64 & bits);
-        position
-            .into_iter()
-            .chain(settings.into_iter().copied())
-            .collect()
+/// Field of a target: its input port, its buffer and its output, before and after the edge.
+struct Field<'a> {
+    given: U,
+    words: [&'a Words; 2],
+    shown: [U; 2],
+}
+
+impl Field<'_> {
+    /// High if the edge stores the field at `to` if `pushes` is high, and keeps all words but that
+    /// one.
+    fn stores(&self, pushes: Bit, to: U) -> Bit {
+        let [words, after] = self.words;
+        let stored = !pushes | after.read(to).equals(self.given);
+        let kept = |index: usize| {
+            let same = after.word(index).equals(words.word(index));
+            to.equals(index as u64) | same
+        };
+        match words.len() {
+            0..=MOST_WORDS => stored & all((0..words.len()).map(kept)),
+            _ => stored,
+        }
     }
 
-    /// Words of the target at the input ports.
-    fn given(&self, i: &In<Value>) -> Vec<u64> {
-        let settings = &i.settings;
-        let times = settings
-            .acceleration_time
-            .iter()
-            .chain(&settings.deceleration_time);
-        self.fields([i.x, i.y], settings.speed.iter().chain(times))
+    /// High if the edge brings the word at `at` to the output if `pops` is high.
+    fn shows(&self, pops: Bit, at: U) -> Bit {
+        let [shown, after] = self.shown;
+        after.equals(pops.mux(self.words[0].read(at), shown))
     }
+}
 
-    /// The target at the outputs.
-    fn shown(&self, q: &Reg<Value>) -> Vec<u64> {
-        let times = q.target_acceleration.iter().chain(&q.target_deceleration);
-        self.fields([q.target_x, q.target_y], q.target_speed.iter().chain(times))
+/// Returns the fields of a target.
+fn fields(now: &Moment<TargetData>) -> Vec<Field<'_>> {
+    let (i, q, next) = (&now.i, &now.q, &now.next.q);
+    let axis = |given: I, words, [before, after]: [I; 2]| Field {
+        given: given.unsigned(),
+        words,
+        shown: [before.unsigned(), after.unsigned()],
+    };
+    let settings = [
+        (
+            &i.settings.speed,
+            [&q.speeds, &next.speeds],
+            [&q.target_speed, &next.target_speed],
+        ),
+        (
+            &i.settings.acceleration_time,
+            [&q.accelerations, &next.accelerations],
+            [&q.target_acceleration, &next.target_acceleration],
+        ),
+        (
+            &i.settings.deceleration_time,
+            [&q.decelerations, &next.decelerations],
+            [&q.target_deceleration, &next.target_deceleration],
+        ),
+    ];
+    let mut all = vec![
+        axis(i.x, [&q.xs, &next.xs], [q.target_x, next.target_x]),
+        axis(i.y, [&q.ys, &next.ys], [q.target_y, next.target_y]),
+    ];
+    for (given, words, shown) in settings {
+        all.extend((0..given.len()).map(|at| Field {
+            given: given[at],
+            words: words.map(|words| &words[at]),
+            shown: shown.map(|words| words[at]),
+        }));
     }
+    all
+}
 
-    /// Number of targets that wait in the buffer.
-    fn level(&self, q: &Reg<Value>) -> u64 {
-        let words = 1 << self.widths.address;
-        (q.write_address + words - q.read_address) % words
-    }
-
-    /// The targets in the buffer.
-    fn waiting(&self, q: &Reg<Value>) -> Vec<Vec<u64>> {
-        let settings = q
-            .speeds
-            .iter()
-            .chain(&q.accelerations)
-            .chain(&q.decelerations);
-        let rams: Vec<_> = [&q.xs, &q.ys].into_iter().chain(settings).collect();
-        let place = |k| (q.read_address + k) % (1 << self.widths.address);
-        let target = |address| rams.iter().map(|ram| ram[address as usize]).collect();
-        (0..self.level(q)).map(|k| target(place(k))).collect()
-    }
+/// High if all are.
+fn all(bits: impl Iterator<Item = Bit>) -> Bit {
+    bits.fold(Bit::high(), |all, bit| all & bit)
 }
 
 impl Specified for TargetData {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let most = (1 << self.widths.address) - 1;
-        Invariants::<Self>::new()
-            .step(
-                "push appends a target, pop removes the oldest, and flush removes all",
-                move |now, next| {
-                    let i = now.i;
-                    let mut expected = self.waiting(now.q);
-                    let pushed = i.push && (i.flush || expected.len() < most);
-                    if i.flush {
-                        expected.clear();
-                    } else if i.pop && !expected.is_empty() {
-                        expected.remove(0);
-                    }
-                    expected.extend(pushed.then(|| self.given(i)));
-                    let signals = ["write_address", "read_address", "xs", "ys"];
-                    require(self.waiting(&next.q) == expected, signals, || {
-                        format!("{expected:?} expected")
-                    })
-                },
-            )
-            .step(
-                "the outputs hold the target that was popped last",
-                |now, next| {
-                    let popped = now.i.pop && !now.i.flush;
-                    let first = self.waiting(now.q).into_iter().next().filter(|_| popped);
-                    let expected = first.unwrap_or_else(|| self.shown(now.q));
-                    let signals = ["target_x", "target_y"];
-                    require(self.shown(&next.q) == expected, signals, || {
-                        format!("{expected:?}")
-                    })
-                },
-            )
-            .always(
-                "ready is high unless the queue is full, and available unless it is empty",
-                move |now| {
-                    let level = self.level(now.q);
-                    let right =
-                        now.w.ready == (level < most as u64) && now.w.available == (level > 0);
-                    require(right, ["ready", "available"], || format!("{level} wait"))
-                },
-            )
-    }
-
     /// All fields of a target alike: none looks at another.
     fn applies(&self, i: &In<Value>) -> bool {
-        let fields = self.given(i);
-        fields.iter().all(|field| *field == fields[0]) && (i.push || fields[0] == 0)
+        let settings = &i.settings;
+        let bits = u64::MAX >> (64 - self.widths.position);
+        let times = [&settings.acceleration_time, &settings.deceleration_time];
+        let words = times.into_iter().chain([&settings.speed]).flatten();
+        let first = i.x as u64 & bits;
+        let alike = i.y == i.x && words.into_iter().all(|word| *word == first);
+        alike && (i.push || first == 0)
     }
 }

@@ -132,69 +132,65 @@ impl Circuit for PositionControl {
         };
         (net, next)
     }
-}
 
-impl Specified for PositionControl {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let (turn, one) = (1i128 << self.widths.position, 1 << self.widths.fraction);
-        let limit = i128::from(self.limit());
-        Invariants::<Self>::new()
-            .always(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let wide = self.widths.position + 1;
+        let (deviation, window) = (w.deviation.resize(wide), i.window.resize(wide).signed());
+        let inside = !deviation.below(-window) & !window.below(deviation);
+        let held = next.speed_ref.equals(q.speed_ref) & !(next.saturated ^ q.saturated);
+        let at_limit = q.speed_ref.magnitude().equals(self.limit());
+        vec![
+            Property::always(
                 "deviation is the shorter distance from feedback to command",
-                move |now| {
-                    let deviation = i128::from(now.w.deviation);
-                    let way = i128::from(now.i.command) - i128::from(now.i.feedback);
-                    let right = (way - deviation) % turn == 0;
-                    require(right, ["deviation"], || format!("{deviation} for {way}"))
-                },
-            )
-            .always(
+                &["deviation"],
+                (i.feedback + w.deviation).equals(i.command),
+            ),
+            Property::always(
                 "in_position is high if and only if deviation is at most window",
-                |now| {
-                    let away = i128::from(now.w.deviation).abs();
-                    let inside = away <= i128::from(now.i.window);
-                    require(now.w.in_position == inside, ["in_position"], || {
-                        format!("{away} away")
-                    })
-                },
-            )
-            .step(
+                &["in_position"],
+                !(w.in_position ^ inside),
+            ),
+            Property::step(
                 "a scan loads the nearest reference within the limits, halves away from zero",
-                move |now, next| {
-                    let product = i128::from(now.w.deviation) * i128::from(now.i.gain);
-                    let reference = i128::from(next.q.speed_ref);
-                    // In units of the product: how far it is from the reference that it gets.
-                    let short = product.abs() - reference.abs() * one;
-                    let nearest = 2 * short < one && 2 * short >= -one;
-                    let cut = reference.abs() == limit && 2 * short >= -one;
-                    let sign = reference == 0 || reference.signum() == product.signum();
-                    let right = sign && reference.abs() <= limit && (nearest || cut);
-                    require(!now.i.scan || right, ["speed_ref"], || {
-                        format!("{reference} for a product of {product}")
-                    })
-                },
-            )
-            .step(
+                &["speed_ref"],
+                !i.scan | self.is_nearest(i, w, next.speed_ref),
+            ),
+            Property::step(
                 "between scans, speed_ref and saturated keep their values",
-                |now, next| {
-                    let q = now.q;
-                    let same = next.q.speed_ref == q.speed_ref && next.q.saturated == q.saturated;
-                    require(now.i.scan || same, ["speed_ref", "scan"], || {
-                        "changed by itself".into()
-                    })
-                },
-            )
-            .always(
+                &["speed_ref", "scan"],
+                i.scan | held,
+            ),
+            Property::always(
                 "saturated is high if and only if speed_ref is at its limit",
-                move |now| {
-                    let at_limit = i128::from(now.q.speed_ref).abs() == limit;
-                    require(now.q.saturated == at_limit, ["saturated"], || {
-                        format!("at {}", now.q.speed_ref)
-                    })
-                },
-            )
+                &["saturated"],
+                !(q.saturated ^ at_limit),
+            ),
+        ]
     }
 }
+
+impl PositionControl {
+    /// High if `reference` is the nearest one to the product of deviation and gain, halves away
+    /// from zero, within the limits.
+    fn is_nearest(&self, i: &In, w: &Net, reference: I) -> Bit {
+        let width = self.widths.product();
+        let one = 1 << self.widths.fraction;
+        let product = w.deviation.magnitude().times(i.gain, width);
+        let amount = reference.magnitude();
+        // In units of the product. Within the limits nothing wraps.
+        let exact = amount.resize(width).shift_left(self.widths.fraction);
+        let reached = !(product + self.half()).below(exact);
+        let near = product.below(exact + (one - self.half()));
+        let limit = U::new(self.limit(), self.widths.converter);
+        let limited = near | amount.equals(limit);
+        let same_sign = !(reference.is_negative() ^ w.deviation.is_negative());
+        let sign = amount.is_zero() | (!product.is_zero() & same_sign);
+        !limit.below(amount) & reached & limited & sign
+    }
+}
+
+impl Specified for PositionControl {}
 
 #[cfg(test)]
 mod tests;
