@@ -2,6 +2,7 @@
 
 use super::design::Modules;
 use super::expression::Expressions;
+use super::fold::folded;
 use super::names::Names;
 use super::text::{ascii, range};
 use crate::netlist::{Assertion, Claim, Module, Node};
@@ -32,6 +33,7 @@ impl Modules<'_> {
         let _ = writeln!(text, "    always @(posedge clk) begin");
         for assertion in printed {
             let holds = expressions.definition(assertion.holds, 76, "                ");
+            let holds = folded(&holds, 16);
             let _ = writeln!(text, "        // {}.", sentence(assertion));
             let says = match assertion.claim {
                 Claim::Property | Claim::Helper => "assert",
@@ -77,6 +79,7 @@ fn shared(module: &Module, expressions: &Expressions<'_>) -> String {
             }
             _ => {
                 let definition = expressions.definition(id, 76, "        ");
+                let definition = folded(&definition, 8);
                 let _ = writeln!(wires, "    wire {}{name} = {definition};", range(shape));
             }
         }

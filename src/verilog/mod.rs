@@ -19,6 +19,7 @@ mod conversion;
 mod design;
 mod dpi;
 mod expression;
+mod fold;
 mod formal;
 mod header;
 mod instances;

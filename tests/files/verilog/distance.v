@@ -42,7 +42,8 @@ module distance (
     always @(posedge clk) begin
         // From where it was to where it is.
         if (f_past_valid && !$past(rst))
-            assert ($signed({{1{past_old[3]}}, past_old}) + moved == $signed({{1{past_position[3]}}, past_position}));
+            assert ($signed({{1{past_old[3]}}, past_old}) + moved ==
+                $signed({{1{past_position[3]}}, past_position}));
         // A part of a difference is that of the exact one.
         if (f_past_valid && !$past(rst))
             assert (net_2[3:1] == net[3:1]);
