@@ -97,6 +97,23 @@ signals! { for Comparator as c;
     }
 }
 
+impl Comparator {
+    /// High if a sample at this difference arrives at the target, or steps over it, from `side`.
+    fn reached(&self, side: U, difference: I) -> Bit {
+        let quarter = ((1u64 << (self.position - 1)) / 2) as i64;
+        let near = !difference.below(-quarter) & difference.below(quarter);
+        let (negative, equal) = (difference.is_negative(), difference.is_zero());
+        match self.comparing {
+            Comparing::Crossing => {
+                let from_below = side.equals(BELOW) & near & !negative;
+                let from_above = side.equals(ABOVE) & near & (negative | equal);
+                from_below | from_above | (side.equals(UNKNOWN) & equal)
+            }
+            Comparing::Equal => equal & !side.equals(AT),
+        }
+    }
+}
+
 impl Circuit for Comparator {
     const NAME: &'static str = "comparator";
     const ABOUT: &'static str = "gives the control signal when the position reaches the target";
@@ -137,84 +154,49 @@ impl Circuit for Comparator {
         };
         (net, edge)
     }
-}
 
-impl Specified for Comparator {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let comparing = self.comparing;
-        let quarter = 1i64 << self.position >> 2;
-        Invariants::<Self>::new()
-            .always(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let looks = i.evaluate & i.valid & q.armed;
+        let crosses = looks & !i.arm & self.reached(q.side, w.difference);
+        let control = (w.fire | i.halt | q.control) & !i.arm;
+        let upward = w.fire.mux(q.side.equals(BELOW), q.upward);
+        let above = w.difference.is_negative().mux(U::new(BELOW, 2), ABOVE);
+        let compared = w.difference.is_zero().mux(AT, above);
+        let side = i.arm.mux(UNKNOWN, looks.mux(compared, q.side));
+        vec![
+            Property::always(
                 "crossing is high if and only if a sample arrives at the target or steps over it",
-                move |now| {
-                    let difference = now.w.difference;
-                    let here = (-quarter..quarter).contains(&difference);
-                    let reached = match (comparing, now.q.side) {
-                        (Comparing::Equal, side) => difference == 0 && side != AT,
-                        (Comparing::Crossing, BELOW) => here && difference >= 0,
-                        (Comparing::Crossing, ABOVE) => here && difference <= 0,
-                        (Comparing::Crossing, UNKNOWN) => difference == 0,
-                        (Comparing::Crossing, _) => false,
-                    };
-                    let looks = now.i.evaluate && now.i.valid && now.q.armed && !now.i.arm;
-                    let right = now.w.crossing == (reached && looks);
-                    require(right, ["crossing", "difference", "side"], || {
-                        format!("a difference of {difference}")
-                    })
-                },
-            )
-            .always(
+                &["crossing", "difference", "side"],
+                !(w.crossing ^ crosses),
+            ),
+            Property::always(
                 "fire is high if and only if crossing is high while control is low",
-                |now| {
-                    let fires = now.w.crossing && !now.q.control;
-                    require(now.w.fire == fires, ["fire"], || "wrong".into())
-                },
-            )
-            .step(
+                &["fire"],
+                !(w.fire ^ (w.crossing & !q.control)),
+            ),
+            Property::step(
                 "control is high from the tick after fire or halt until the next arm",
-                |now, next| {
-                    let control = (now.w.fire || now.i.halt || now.q.control) && !now.i.arm;
-                    require(next.q.control == control, ["control"], || {
-                        format!("{control} expected")
-                    })
-                },
-            )
-            .step(
+                &["control"],
+                !(next.control ^ control),
+            ),
+            Property::step(
                 "fire sets upward if the position came from below, and nothing else changes upward",
-                |now, next| {
-                    let upward = match now.w.fire {
-                        true => now.q.side == BELOW,
-                        false => now.q.upward,
-                    };
-                    require(next.q.upward == upward, ["upward"], || {
-                        format!("{upward} expected")
-                    })
-                },
-            )
-            .step(
+                &["upward"],
+                !(next.upward ^ upward),
+            ),
+            Property::step(
                 "armed is high from the tick after the first arm",
-                |now, next| {
-                    let armed = now.q.armed || now.i.arm;
-                    require(next.q.armed == armed, ["armed"], || {
-                        format!("{armed} expected")
-                    })
-                },
-            )
-            .step(
+                &["armed"],
+                !(next.armed ^ (q.armed | i.arm)),
+            ),
+            Property::step(
                 "side is that of the last comparison since arm, and unknown before the first",
-                |now, next| {
-                    let looks = now.i.evaluate && now.i.valid && now.q.armed;
-                    let side = match (now.i.arm, looks) {
-                        (true, _) => UNKNOWN,
-                        (false, false) => now.q.side,
-                        (false, true) => match now.w.difference.signum() {
-                            -1 => BELOW,
-                            0 => AT,
-                            _ => ABOVE,
-                        },
-                    };
-                    require(next.q.side == side, ["side"], || format!("{side} expected"))
-                },
-            )
+                &["side"],
+                next.side.equals(side),
+            ),
+        ]
     }
 }
+
+impl Specified for Comparator {}

@@ -76,6 +76,16 @@ signals! { for CompletionDetector as c;
     }
 }
 
+/// High if one more CK makes `limit`, where 0 counts as 1.
+fn is_last(count: U, limit: U) -> Bit {
+    limit.is_zero() | !count.below(limit - 1)
+}
+
+/// High if `after` is one more than `before`, without a wrap.
+fn one_more(before: U, after: U) -> Bit {
+    after.equals(before + 1) & before.below(after)
+}
+
 impl Circuit for CompletionDetector {
     const NAME: &'static str = "completion_detector";
     const ABOUT: &'static str = "detects that the body stands still, or that the time-out is over";
@@ -114,63 +124,45 @@ impl Circuit for CompletionDetector {
         };
         (net, edge)
     }
-}
 
-impl Specified for CompletionDetector {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let runs = i.active & !q.complete;
+        let rests = i.position.equals(q.last);
+        let done = (rests & is_last(q.still, i.standstill)) | i.effect;
+        let completes = i.evaluate & runs & (done | is_last(q.elapsed, i.time_out));
+        let timed_out = next.complete.mux(!done, q.timed_out);
+
+        let zero = next.still.is_zero() & next.elapsed.is_zero();
+        let kept = next.still.equals(q.still) & next.elapsed.equals(q.elapsed);
+        let still = rests.mux(one_more(q.still, next.still), next.still.is_zero());
+        let counted = still & one_more(q.elapsed, next.elapsed);
+        let sampled = next.complete.mux(zero, counted);
+
+        let most = u64::MAX.cut(self.time);
+        vec![
+            Property::step(
                 "complete follows standstill, effect or the time limit, which sets timed_out",
-                |now, next| {
-                    let (i, q, next) = (now.i, now.q, &next.q);
-                    let still = match i.position == q.last {
-                        true => q.still + 1,
-                        false => 0,
-                    };
-                    let stands = still >= i.standstill.max(1) || i.effect;
-                    let late = q.elapsed + 1 >= i.time_out.max(1);
-                    let looks = i.evaluate && i.active && !q.complete;
-                    let right = next.complete == (looks && (stands || late))
-                        && (!next.complete || next.timed_out != stands)
-                        && (next.complete || next.timed_out == q.timed_out);
-                    require(right, ["complete", "timed_out"], || {
-                        format!("still for {still}, {} since control", q.elapsed + 1)
-                    })
-                },
-            )
-            .step(
+                &["complete", "timed_out"],
+                !(next.complete ^ completes) & !(next.timed_out ^ timed_out),
+            ),
+            Property::step(
                 "while active is high, elapsed counts all samples and still those at rest",
-                |now, next| {
-                    let (i, q, next) = (now.i, now.q, &next.q);
-                    let (still, elapsed) = match (i.active && !q.complete, i.evaluate) {
-                        (false, _) => (0, 0),
-                        (true, false) => (q.still, q.elapsed),
-                        (true, true) if next.complete => (0, 0),
-                        (true, true) => match i.position == q.last {
-                            true => (q.still + 1, q.elapsed + 1),
-                            false => (0, q.elapsed + 1),
-                        },
-                    };
-                    let right = next.still == still && next.elapsed == elapsed;
-                    require(right, ["still", "elapsed"], || {
-                        format!("{still} and {elapsed} expected")
-                    })
-                },
-            )
-            .step("last holds the previous sample", |now, next| {
-                let last = match now.i.evaluate {
-                    true => now.i.position,
-                    false => now.q.last,
-                };
-                require(next.q.last == last, ["last"], || "another".into())
-            })
-            .always(
+                &["still", "elapsed"],
+                runs.mux(i.evaluate.mux(sampled, kept), zero),
+            ),
+            Property::step(
+                "last holds the previous sample",
+                &["last"],
+                next.last.equals(i.evaluate.mux(i.position, q.last)),
+            ),
+            Property::always(
                 "still and elapsed never reach their greatest value",
-                |now| {
-                    let most = (1 << self.time) - 1;
-                    let right = now.q.still < most && now.q.elapsed < most;
-                    require(right, ["still", "elapsed"], || "it would wrap".into())
-                },
-            )
+                &["still", "elapsed"],
+                q.still.below(most) & q.elapsed.below(most),
+            ),
+        ]
     }
 }
+
+impl Specified for CompletionDetector {}

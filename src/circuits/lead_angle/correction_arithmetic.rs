@@ -112,6 +112,18 @@ signals! { for CorrectionArithmetic as c;
     }
 }
 
+impl CorrectionArithmetic {
+    /// Returns the time plus or minus the quotient, limited to codes from 1 to the last, as a word of
+    /// the divider.
+    fn limited(&self, i: &In, negative: Bit) -> U {
+        let (time, last) = (i.lead_time.resize(self.word()), self.last());
+        let sum = time + i.quotient;
+        let longer = sum.below(last).mux(sum, last);
+        let shorter = i.quotient.below(time).mux(time - i.quotient, 1);
+        negative.mux(shorter, longer)
+    }
+}
+
 impl Circuit for CorrectionArithmetic {
     const NAME: &'static str = "correction_arithmetic";
     const ABOUT: &'static str = "next lead time from overrun and error";
@@ -159,66 +171,58 @@ impl Circuit for CorrectionArithmetic {
         };
         (net, edge)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let learns = i.complete & i.learn & !i.missed;
+        let divided = q.dividing & i.done;
+        let sown = learns & i.lead_time.is_zero() & !i.error.is_zero();
+        let divides = learns & !i.lead_time.is_zero() & !i.overrun.is_zero();
+
+        let corrected = !(next.corrected ^ (divided | (i.complete & !w.divide)));
+        let dividing = !(next.dividing ^ (w.divide | (q.dividing & !i.done)));
+        let learned = !(next.learned ^ (sown | divided));
+        let seeded = !sown | divided | next.raw.equals(i.seed);
+        let raw = next.raw.resize(self.word());
+        let opposed = i.error.is_negative() ^ i.overrun.is_negative();
+        let none = i.error.is_zero() | i.overrun.is_zero();
+        let last = U::new(self.last(), self.time());
+        vec![
+            Property::step(
+                "corrected is high after every completion, or after its division if there is one",
+                &["corrected", "dividing"],
+                corrected & dividing,
+            ),
+            Property::step(
+                "a lead time of 0 with an error learns seed, and any other learns by division",
+                &["learned", "divide", "raw"],
+                learned & seeded & !(w.divide ^ divides),
+            ),
+            Property::step(
+                "raw is lead_time plus or minus quotient, limited to codes from 1 to the last",
+                &["raw"],
+                !divided | raw.equals(self.limited(i, q.negative)),
+            ),
+            Property::step(
+                "a division sets negative if error and overrun have opposite signs",
+                &["negative"],
+                !w.divide | none | !(next.negative ^ opposed),
+            ),
+            Property::given(
+                "lead_time is from 1 to the largest code when a division ends",
+                !divided | !(i.lead_time.is_zero() | last.below(i.lead_time)),
+            ),
+            Property::given(
+                "quotient is below half of its range when a division ends",
+                !divided | !i.quotient.bit(self.word() - 1),
+            ),
+        ]
+    }
 }
 
 impl Specified for CorrectionArithmetic {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step(
-                "corrected is high after every completion, or after its division if there is one",
-                |now, next| {
-                    let divides = now.w.divide;
-                    let ended = now.q.dividing && now.i.done;
-                    let corrected = ended || (now.i.complete && !divides);
-                    let dividing = divides || (now.q.dividing && !ended);
-                    let right = next.q.corrected == corrected && next.q.dividing == dividing;
-                    require(right, ["corrected", "dividing"], || {
-                        format!("{corrected} and {dividing} expected")
-                    })
-                },
-            )
-            .step(
-                "a lead time of 0 with an error learns seed, and any other learns by division",
-                |now, next| {
-                    let (i, next) = (now.i, &next.q);
-                    let learns = i.complete && i.learn && !i.missed;
-                    let (time, error) = (i.lead_time, i.error);
-                    let sown = learns && time == 0 && error != 0;
-                    let divided = now.q.dividing && i.done;
-                    let right = next.learned == (sown || divided)
-                        && (!sown || divided || next.raw == i.seed)
-                        && now.w.divide == (learns && time > 0 && i.overrun != 0);
-                    require(right, ["learned", "divide", "raw"], || {
-                        format!("a time of {time} with an error of {error}")
-                    })
-                },
-            )
-            .step(
-                "raw is lead_time plus or minus quotient, limited to codes from 1 to the last",
-                |now, next| {
-                    if !(now.q.dividing && now.i.done) {
-                        return Ok(());
-                    }
-                    let (time, by) = (i128::from(now.i.lead_time), i128::from(now.i.quotient));
-                    let sum = if now.q.negative { time - by } else { time + by };
-                    let expected = sum.clamp(1, i128::from(self.last()));
-                    require(i128::from(next.q.raw) == expected, ["raw"], || {
-                        format!("{expected} expected")
-                    })
-                },
-            )
-            .step(
-                "a division sets negative if error and overrun have opposite signs",
-                |now, next| {
-                    let signs = now.i.error.signum() * now.i.overrun.signum();
-                    let right = next.q.negative == (signs < 0) || signs == 0;
-                    require(!now.w.divide || right, ["negative"], || "wrong".into())
-                },
-            )
-    }
-
-    /// Times as the memory holds them, and quotients that such a division can have.
+    /// Excludes seeds above 1: a seed is only stored.
     fn applies(&self, i: &In<Value>) -> bool {
-        i.lead_time <= self.last() && i.seed <= 1
+        i.seed <= 1
     }
 }

@@ -13,7 +13,7 @@
 
 use super::codes::tap_width;
 use super::position_history::{
-    In, Net as Taking, Pair, moved_on, nets, objection, pair_after, ratio_follows, stored,
+    In, Net as Taking, Pair, is_kept, moved_on, nets, objection, pair_after, ratio_follows,
 };
 use crate::prelude::*;
 
@@ -109,36 +109,29 @@ impl Circuit for DifferenceHistory {
         };
         (Net { taking, ways }, edge)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let sample = i.position.unsigned();
+        let old = q.stages.read(i.tap - 1).signed();
+        let taken = i.ck & is_kept(self.stages, i.tap);
+        let difference = taken.mux(i.position - old, q.pair.difference);
+        vec![
+            Property::step(
+                "at CK every sample moves to the next stage, and between CKs no stage changes",
+                &["stages"],
+                moved_on(i.ck, sample, &q.stages, &next.stages),
+            ),
+            Property::step(
+                "only CK changes difference, to the distance from the sample of tap CKs ago",
+                &["pair.difference"],
+                next.pair.difference.equals(difference),
+            ),
+        ]
+    }
 }
 
 impl Specified for DifferenceHistory {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let &DifferenceHistory { stages, position } = self;
-        let range = 1i64 << position;
-        Invariants::<Self>::new()
-            .step(
-                "at CK every sample moves to the next stage, and between CKs no stage changes",
-                move |now, next| {
-                    let taken = stored(now.i.position, position);
-                    moved_on(now.i.ck, &now.q.stages, taken, &next.q.stages)
-                },
-            )
-            .step(
-                "only CK changes difference, to the distance from the sample of tap CKs ago",
-                move |now, next| {
-                    let (tap, way) = (now.i.tap as usize, next.q.pair.difference);
-                    let right = match now.i.ck && (1..=stages).contains(&tap) {
-                        true => {
-                            let old = now.q.stages[tap - 1] as i64;
-                            (now.i.position - old - way) % range == 0
-                        }
-                        false => way == now.q.pair.difference,
-                    };
-                    require(right, ["pair.difference"], || format!("{way}"))
-                },
-            )
-    }
-
     fn applies(&self, i: &In<Value>) -> bool {
         ratio_follows(i)
     }

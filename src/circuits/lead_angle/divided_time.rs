@@ -93,29 +93,28 @@ impl Circuit for DividedTime {
         };
         (Net { ratio, tap, code }, Nothing)
     }
-}
 
-impl Specified for DividedTime {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let range = 1u64 << self.tap();
-        Invariants::<Self>::new()
-            .always(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, w) = (&now.i, &now.w);
+        let tap = i.lead_time.slice(0, self.tap());
+        let upper = match self.one {
+            true => U::new(1, 4),
+            false => i.lead_time.slice(self.tap(), 4),
+        };
+        let ratio = tap.is_zero().mux(0, upper);
+        vec![
+            Property::always(
                 "ratio and tap are the two parts of lead_time, and both are 0 if tap is 0",
-                move |now| {
-                    let (ratio, tap) = (now.i.lead_time / range, now.i.lead_time % range);
-                    let ratio = if self.one { 1 } else { ratio };
-                    let expected = if tap == 0 { (0, 0) } else { (ratio, tap) };
-                    let given = (now.w.ratio, now.w.tap);
-                    require(given == expected, ["ratio", "tap"], || {
-                        format!("{given:?} where {expected:?} is expected")
-                    })
-                },
-            )
-            .always("code is ratio times tap", move |now| {
-                let expected = now.w.ratio * now.w.tap % (1 << self.time());
-                require(now.w.code == expected, ["code"], || {
-                    format!("{expected} expected")
-                })
-            })
+                &["ratio", "tap"],
+                w.ratio.equals(ratio) & w.tap.equals(tap),
+            ),
+            Property::always(
+                "code is ratio times tap",
+                &["code"],
+                w.code.equals(w.tap.times(w.ratio, self.time())),
+            ),
+        ]
     }
 }
+
+impl Specified for DividedTime {}

@@ -73,24 +73,23 @@ impl Circuit for ExactRelation {
         };
         (net, Nothing)
     }
-}
 
-impl Specified for ExactRelation {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new().always(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, w) = (&now.i, &now.w);
+        let (forwards, backwards) = (i.error.below(i.overrun), i.overrun.below(i.error));
+        let is_negative = i.overrun.is_negative();
+        let ahead = is_negative.mux(backwards, forwards);
+        let overrun = i.overrun.resize(self.position + 1);
+        // It has the sign of the overrun.
+        let way = ahead.mux(i.overrun.minus(i.error), overrun);
+        let amount = way.negated_by(is_negative).unsigned();
+        let right = w.divide_by.equals_any(amount);
+        vec![Property::always(
             "divide_by is the distance to a target that lay ahead, otherwise the overrun",
-            |now| {
-                let (overrun, error, w) = (now.i.overrun, now.i.error, now.w);
-                let ahead = match overrun {
-                    0.. => overrun > error,
-                    _ => overrun < error,
-                };
-                let divisor = if ahead { overrun - error } else { overrun };
-                let right = w.divide_by == divisor.unsigned_abs() && w.addend == w.divide_by / 2;
-                require(right, ["divide_by", "addend"], || {
-                    format!("{} where {divisor} is expected", w.divide_by)
-                })
-            },
-        )
+            &["divide_by", "addend"],
+            right & w.addend.equals(w.divide_by.shift_right(1)),
+        )]
     }
 }
+
+impl Specified for ExactRelation {}

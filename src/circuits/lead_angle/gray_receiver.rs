@@ -77,6 +77,17 @@ signals! { for GrayReceiver as c;
     }
 }
 
+/// Returns the number of a word in Gray code, from the top bit down: a bit of the number is that of
+/// the word, inverted if the bit above it in the number is high.
+fn number(word: U) -> U {
+    let top = word.width() - 1;
+    let mut above = word.bit(top);
+    (0..top).rev().fold(above.word(), |number, index| {
+        above = above ^ word.bit(index);
+        number.join(above.word())
+    })
+}
+
 impl Circuit for GrayReceiver {
     const NAME: &'static str = "gray_receiver";
     const ABOUT: &'static str = "place in a turn from the Gray words of an absolute encoder";
@@ -119,40 +130,34 @@ impl Circuit for GrayReceiver {
         };
         (net, next)
     }
-}
 
-impl Specified for GrayReceiver {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let codes = 1i64 << self.code;
-        Invariants::<Self>::new()
-            .always(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let wide = self.code + 1;
+        let codes = U::new(1 << self.code, wide);
+        let counts = i.turn.is_zero().mux(codes, i.turn.resize(wide));
+        // The turn is in the middle of the code.
+        let first = (codes - counts).shift_right(1);
+        let number = number(q.sync_code).resize(wide);
+        let place = number - first;
+        let inside = !number.below(first) & place.below(counts);
+        let placed = (w.outside ^ inside) & (!inside | w.place.equals(place));
+        let rises = q.sync_strobe.slice(2, 2).equals(0b01);
+        let strobes = q.sync_strobe.slice(0, 3).join(i.strobe.word());
+        let codes_pass = next.pin_code.equals(i.code) & next.sync_code.equals(q.pin_code);
+        vec![
+            Property::always(
                 "take is high three ticks after strobe rises, with the word's place in the turn",
-                move |now| {
-                    // By counting through the code; none where the turn is without it.
-                    let (turn, word) = (now.i.turn as i64, now.q.sync_code);
-                    let counts = if turn == 0 { codes } else { turn };
-                    let number = (0..codes).find(|number| (number ^ (number >> 1)) as u64 == word);
-                    let place = number.unwrap_or(codes) - (codes - counts) / 2;
-                    let inside = (0..counts).contains(&place);
-                    let right = now.w.take == (now.q.sync_strobe & 0b1100 == 0b0100)
-                        && now.w.outside != inside
-                        && (!inside || now.w.place as i64 == place);
-                    require(right, ["place", "outside", "take"], || {
-                        format!("{place} of {counts}")
-                    })
-                },
-            )
-            .step(
+                &["place", "outside", "take"],
+                !(w.take ^ rises) & placed,
+            ),
+            Property::step(
                 "code passes two flip-flops and strobe four, one per tick",
-                |now, next| {
-                    let passed = next.q.pin_code == now.i.code
-                        && next.q.sync_code == now.q.pin_code
-                        && next.q.sync_strobe
-                            == (now.q.sync_strobe << 1 & 15 | u64::from(now.i.strobe));
-                    require(passed, ["pin_code", "sync_code", "sync_strobe"], || {
-                        "not so".into()
-                    })
-                },
-            )
+                &["pin_code", "sync_code", "sync_strobe"],
+                codes_pass & next.sync_strobe.equals(strobes),
+            ),
+        ]
     }
 }
+
+impl Specified for GrayReceiver {}

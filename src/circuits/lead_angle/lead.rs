@@ -68,36 +68,28 @@ impl Circuit for Lead {
         };
         (net, Nothing)
     }
-}
 
-impl Specified for Lead {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let range = 1i128 << self.position;
-        Invariants::<Self>::new()
-            .always(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, w) = (&now.i, &now.w);
+        let difference = i.present - i.old;
+        let ratio = i.ratio.resize(5).signed();
+        let mut all = vec![
+            Property::always(
                 "difference is the shorter distance from old to present",
-                move |now| {
-                    let way = i128::from(now.i.present) - i128::from(now.i.old);
-                    let difference = i128::from(now.w.difference);
-                    let right = (way - difference) % range == 0;
-                    require(right, ["difference"], || format!("{difference} for {way}"))
-                },
-            )
-            .always(
+                &["difference"],
+                w.difference.equals(difference),
+            ),
+            Property::always(
                 "lead equals ratio times difference, modulo the position range",
-                move |now| {
-                    let ways = i128::from(now.i.ratio)
-                        * (i128::from(now.i.present) - i128::from(now.i.old));
-                    let lead = i128::from(now.w.lead);
-                    require((ways - lead) % range == 0, ["lead"], || {
-                        format!("{lead} for {ways}")
-                    })
-                },
-            )
-    }
-
-    /// A fixed ratio has one bit.
-    fn applies(&self, i: &In<Value>) -> bool {
-        !self.one || i.ratio <= 1
+                &["lead"],
+                w.lead.equals(difference.times(ratio, self.position)),
+            ),
+        ];
+        if self.one {
+            all.push(Property::given("ratio is at most 1", i.ratio.below(2)));
+        }
+        all
     }
 }
+
+impl Specified for Lead {}

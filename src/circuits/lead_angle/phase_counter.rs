@@ -128,77 +128,84 @@ impl Circuit for PhaseCounter {
         };
         (net, after)
     }
-}
 
-impl Specified for PhaseCounter {
-    /// Excludes moduli of 1 to 3, which are not allowed.
-    fn applies(&self, i: &In<Value>) -> bool {
-        i.modulus == 0 || i.modulus >= 4
-    }
-
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let counts = {
-            let all = 1i64 << self.phase;
-            move |modulus: u64| if modulus == 0 { all } else { modulus as i64 }
-        };
-        let crosses = |q: &Reg<Value>| q.sync_secondary >> 1 & 3 == 1;
-        Invariants::<Self>::new()
-            .step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let counts = self.counts(now.i.modulus);
+        vec![
+            Property::step(
                 "phase counts through the carrier's period, square_wave is high in its first half",
-                move |now, next| {
-                    let (phase, counts) = (now.q.phase as i64, counts(now.i.modulus));
-                    // A period that was cut short is over.
-                    let expected = if phase >= counts {
-                        0
-                    } else {
-                        (phase + 1) % counts
-                    };
-                    let first = 2 * phase < counts - counts % 2;
-                    let right = next.q.phase as i64 == expected && now.w.square_wave == first;
-                    require(right, ["phase", "square_wave"], || {
-                        format!("{phase} of {counts}")
-                    })
-                },
-            )
-            .step(
+                &["phase", "square_wave"],
+                self.carrier(now, counts),
+            ),
+            Property::step(
                 "a rise of the secondary stores the phase of two ticks ago in place",
-                move |now, next| {
-                    let (q, counts) = (now.q, counts(now.i.modulus));
-                    let phase = q.phase as i64;
-                    let expected = match (crosses(q), phase >= counts) {
-                        (false, _) => q.place as i64,
-                        (true, true) => phase - 2,
-                        (true, false) => (phase + counts - 2) % counts,
-                    };
-                    let right = next.q.place as i64 == expected
-                        && next.q.crossed == (q.crossed || crosses(q))
-                        && next.q.sync_secondary
-                            == (q.sync_secondary << 1 & 7 | u64::from(now.i.secondary));
-                    let signals = ["place", "crossed", "sync_secondary"];
-                    require(right, signals, || format!("not {expected}"))
-                },
-            )
-            .step(
+                &["place", "crossed", "sync_secondary"],
+                self.stored(now, counts),
+            ),
+            Property::step(
                 "a secondary period below 3/4 or above 5/4 of the carrier's sets fault",
-                move |now, next| {
-                    let (q, counts) = (now.q, counts(now.i.modulus));
-                    let elapsed = 4 * q.elapsed as i64;
-                    let late = elapsed > 5 * counts;
-                    let wrong = late || (crosses(q) && q.crossed && elapsed < 3 * counts);
-                    let expected = match (crosses(q), late) {
-                        (true, _) => 1,
-                        (false, true) => q.elapsed,
-                        (false, false) => q.elapsed + 1,
-                    };
-                    // The observed level was at the pin two ticks ago.
-                    let ends = q.phase == 2;
-                    let right = next.q.elapsed == expected
-                        && next.q.fault == (wrong || (q.fault && !ends))
-                        && now.w.take == (ends && (q.crossed || q.fault));
-                    require(right, ["elapsed", "fault", "take"], || {
-                        format!("{expected}")
-                    })
-                },
-            )
+                &["elapsed", "fault", "take"],
+                self.monitored(now, counts),
+            ),
+            Property::given("modulus is 0 or at least 4", !counts.below(4)),
+        ]
     }
 }
+
+/// Statements of the properties; `counts` are the ticks of the carrier period.
+impl PhaseCounter {
+    /// Returns the ticks of the carrier period.
+    fn counts(&self, modulus: U) -> U {
+        let wide = self.phase + 1;
+        let all = U::new(1 << self.phase, wide);
+        modulus.is_zero().mux(all, modulus.resize(wide))
+    }
+
+    /// High if the phase counts through the period, with the square wave high in the first half.
+    fn carrier(&self, now: &Moment<Self>, counts: U) -> Bit {
+        let phase = now.q.phase.resize(self.phase + 1);
+        // A period that was cut short is over.
+        let ends = !(phase + 1).below(counts);
+        let next = now.next.q.phase.resize(self.phase + 1);
+        let even = counts.shift_right(1).shift_left(1);
+        let first_half = phase.shift_left(1).below(even);
+        next.equals(ends.mux(0, phase + 1)) & !(now.w.square_wave ^ first_half)
+    }
+
+    /// High if a crossing, and nothing else, stores the phase of two ticks ago.
+    fn stored(&self, now: &Moment<Self>, counts: U) -> Bit {
+        let (q, next, wide) = (&now.q, &now.next.q, self.phase + 1);
+        let crosses = crosses(q.sync_secondary);
+        let phase = q.phase.resize(wide);
+        let seen = phase.below(SEEN).mux(phase + counts, phase) - SEEN;
+        let place = crosses.mux(seen, q.place.resize(wide));
+        let crossed = !(next.crossed ^ (q.crossed | crosses));
+        let levels = q.sync_secondary.slice(0, 2).join(now.i.secondary.word());
+        let passed = next.sync_secondary.equals(levels);
+        next.place.resize(wide).equals(place) & crossed & passed
+    }
+
+    /// High if the period of the secondary is measured, and a wrong one sets `fault`.
+    fn monitored(&self, now: &Moment<Self>, counts: U) -> Bit {
+        let (q, w, next) = (&now.q, &now.w, &now.next.q);
+        let crosses = crosses(q.sync_secondary);
+        // Ticks are more than a quarter of the period if they are more than its whole ticks.
+        let quarter = counts.shift_right(2);
+        let late = (counts + quarter).below(q.elapsed);
+        let early = crosses & q.crossed & q.elapsed.below(counts - quarter);
+        let elapsed = crosses.mux(1, late.mux(q.elapsed, q.elapsed + 1));
+        // The observed level was at the pin two ticks ago.
+        let ends = q.phase.equals(SEEN);
+        let fault = early | late | (q.fault & !ends);
+        let takes = ends & (q.crossed | q.fault);
+        let measured = next.elapsed.equals(elapsed);
+        measured & !(next.fault ^ fault) & !(w.take ^ takes)
+    }
+}
+
+/// High if the synchronized secondary rises.
+fn crosses(sync_secondary: U) -> Bit {
+    sync_secondary.slice(1, 2).equals(0b01)
+}
+
+impl Specified for PhaseCounter {}

@@ -78,6 +78,28 @@ impl Circuit for LeadPlacement {
         };
         (net, Nothing)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, w) = (&now.i, &now.w);
+        let apart = w.compared_position - w.compared_target;
+        let part = match self.placement {
+            Placement::Position => i.lead,
+            Placement::Target => I::new(0, self.position),
+            Placement::Halves => i.lead.shift_right(1),
+        };
+        vec![
+            Property::always(
+                "compared_position minus compared_target equals position plus lead minus target",
+                &["compared_position", "compared_target"],
+                apart.equals(i.position + i.lead - i.target),
+            ),
+            Property::always(
+                "position and target each receive the part of the lead that the placement assigns",
+                &["compared_position"],
+                (w.compared_position - i.position).equals(part),
+            ),
+        ]
+    }
 }
 
 /// Operands of the comparator.
@@ -106,36 +128,4 @@ pub(super) fn compared(part: Option<Part<LeadPlacement>>, lead: &Lead, target: I
     }
 }
 
-impl Specified for LeadPlacement {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let range = 1i64 << self.position;
-        let placement = self.placement;
-        Invariants::<Self>::new()
-            .always(
-                "compared_position minus compared_target equals position plus lead minus target",
-                move |now| {
-                    let apart = now.w.compared_position - now.w.compared_target;
-                    let wanted = now.i.position + now.i.lead - now.i.target;
-                    let right = (apart - wanted) % range == 0;
-                    require(right, ["compared_position", "compared_target"], || {
-                        format!("{apart} where {wanted} is wanted")
-                    })
-                },
-            )
-            .always(
-                "position and target each receive the part of the lead that the placement assigns",
-                move |now| {
-                    let lead = now.i.lead;
-                    let part = match placement {
-                        Placement::Position => lead,
-                        Placement::Target => 0,
-                        Placement::Halves => lead.div_euclid(2),
-                    };
-                    let moved = now.w.compared_position - now.i.position;
-                    require((moved - part) % range == 0, ["compared_position"], || {
-                        format!("{moved} of {lead}")
-                    })
-                },
-            )
-    }
-}
+impl Specified for LeadPlacement {}

@@ -17,7 +17,6 @@
 
 use super::codes::tap_width;
 use super::{DifferenceHistory, RamHistory};
-use crate::check::Verdict;
 use crate::prelude::*;
 
 /// Position history as a shift register.
@@ -112,16 +111,20 @@ pub(super) fn objection(stages: usize) -> Option<String> {
     (stages == 0).then(|| "a history of no samples".into())
 }
 
-/// At CK every sample becomes a CK older, between CKs nothing moves.
-pub(super) fn moved_on(ck: bool, stages: &[u64], position: u64, after: &[u64]) -> Verdict {
-    let mut expected = stages.to_vec();
-    if ck {
-        expected.insert(0, position);
-        expected.pop();
-    }
-    require(after == expected, ["stages"], || {
-        format!("{after:?} where {expected:?} is expected")
-    })
+/// High if at CK `sample` enters stage 0 and every other stage takes the word before it, and if no
+/// stage changes between CKs.
+pub(super) fn moved_on(ck: Bit, sample: U, before: &Words, after: &Words) -> Bit {
+    let newer = std::iter::once(sample).chain(before.iter());
+    let stages = newer.zip(before.iter()).zip(after.iter());
+    let moved = stages.map(|((newer, old), next)| next.equals(ck.mux(newer, old)));
+    moved
+        .reduce(|all, stage| all & stage)
+        .unwrap_or(Bit::high())
+}
+
+/// High if a history of this length keeps the sample of `tap` CKs ago.
+pub(super) fn is_kept(stages: usize, tap: U) -> Bit {
+    !tap.is_zero() & !U::new(stages as u64, tap.width()).below(tap)
 }
 
 /// The ratio is only passed on: in a proof it may depend on the position.
@@ -152,68 +155,51 @@ impl Circuit for PositionHistory {
         };
         (net, edge)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q.pair, &now.next.q.pair);
+        let (stages, moved) = (&now.q.stages, &now.next.q.stages);
+        let kept = is_kept(self.stages, i.tap);
+        let old = kept.mux(stages.read(i.tap - 1).signed(), q.old);
+        let is_pair = |present: I, old: I, ratio: U| {
+            let samples = next.present.equals(present) & next.old.equals(old);
+            samples & next.pair_ratio.equals(ratio)
+        };
+        let sampled = is_pair(i.position, old, i.ratio);
+        let held = is_pair(q.present, q.old, q.pair_ratio);
+        let enough = i.ck.mux(!q.samples.below(i.tap), q.enough) & !i.restart;
+        let fresh = i.ck & !i.restart;
+        let more = i.ck.mux(q.samples + 1, q.samples);
+        let counted = q
+            .samples
+            .below(self.stages as u64)
+            .mux(more, self.stages as u64);
+        vec![
+            Property::step(
+                "at CK every sample moves to the next stage, and between CKs no stage changes",
+                &["stages"],
+                moved_on(i.ck, i.position.unsigned(), stages, moved),
+            ),
+            Property::step(
+                "only CK changes the pair, to the sample and the sample of tap CKs ago",
+                &["pair.present", "pair.old"],
+                i.ck.mux(sampled, held),
+            ),
+            Property::step(
+                "fresh follows CK, and enough is high if tap does not reach beyond the restart",
+                &["pair.fresh", "pair.enough"],
+                !(next.fresh ^ fresh) & !(next.enough ^ enough),
+            ),
+            Property::step(
+                "samples counts the samples since restart, up to K",
+                &["pair.samples"],
+                next.samples.equals(i.restart.mux(0, counted)),
+            ),
+        ]
+    }
 }
 
 impl Specified for PositionHistory {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let &PositionHistory { stages, position } = self;
-        Invariants::<Self>::new()
-            .step(
-                "at CK every sample moves to the next stage, and between CKs no stage changes",
-                move |now, next| {
-                    let taken = stored(now.i.position, position);
-                    moved_on(now.i.ck, &now.q.stages, taken, &next.q.stages)
-                },
-            )
-            .step(
-                "only CK changes the pair, to the sample and the sample of tap CKs ago",
-                move |now, next| {
-                    let (tap, before, pair) = (now.i.tap as usize, &now.q.pair, &next.q.pair);
-                    if !now.i.ck {
-                        let held = pair.present == before.present
-                            && pair.old == before.old
-                            && pair.pair_ratio == before.pair_ratio;
-                        return require(held, ["pair.present", "pair.old"], || "moved".into());
-                    }
-                    let old = match tap {
-                        0 => stored(before.old, position),
-                        tap if tap > stages => stored(before.old, position),
-                        tap => now.q.stages[tap - 1],
-                    };
-                    let right = pair.present == now.i.position
-                        && stored(pair.old, position) == old
-                        && pair.pair_ratio == now.i.ratio;
-                    require(right, ["pair.present", "pair.old"], || {
-                        format!("{} and {}", pair.present, pair.old)
-                    })
-                },
-            )
-            .step(
-                "fresh follows CK, and enough is high if tap does not reach beyond the restart",
-                |now, next| {
-                    let (ck, restart, before) = (now.i.ck, now.i.restart, &now.q.pair);
-                    let enough = match ck {
-                        true => before.samples >= now.i.tap,
-                        false => before.enough,
-                    };
-                    let right = next.q.pair.fresh == (ck && !restart)
-                        && next.q.pair.enough == (enough && !restart);
-                    require(right, ["pair.fresh", "pair.enough"], || {
-                        format!("{enough} with {} samples", before.samples)
-                    })
-                },
-            )
-            .step(
-                "samples counts the samples since restart, up to K",
-                move |now, next| {
-                    let more = (now.q.pair.samples + u64::from(now.i.ck)).min(stages as u64);
-                    let expected = if now.i.restart { 0 } else { more };
-                    let right = next.q.pair.samples == expected;
-                    require(right, ["pair.samples"], || format!("{expected} expected"))
-                },
-            )
-    }
-
     fn applies(&self, i: &In<Value>) -> bool {
         ratio_follows(i)
     }

@@ -11,7 +11,7 @@
 //! those of the [shift register](super::position_history).
 
 use super::codes::tap_width;
-use super::position_history::{In, Net, Pair, nets, objection, pair_after, ratio_follows, stored};
+use super::position_history::{In, Net, Pair, is_kept, nets, objection, pair_after, ratio_follows};
 use crate::prelude::*;
 
 /// Position history in a RAM, which has a word for every tap that there can be.
@@ -59,45 +59,33 @@ impl Circuit for RamHistory {
         };
         (net, edge)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let counted = next.address.equals(i.ck.mux(q.address + 1, q.address));
+        let words = (0..q.samples.len()).map(|index| {
+            let written = i.ck & q.address.equals(index as u64);
+            let word = written.mux(i.position.unsigned(), q.samples.word(index));
+            next.samples.word(index).equals(word)
+        });
+        let taken = i.ck & is_kept(self.stages, i.tap);
+        let sample = q.samples.read(q.address - i.tap).signed();
+        vec![
+            Property::step(
+                "CK writes the sample at address and counts address up, and changes no other word",
+                &["samples", "address"],
+                words.fold(counted, |all, word| all & word),
+            ),
+            Property::step(
+                "at CK, pair.old becomes the sample of tap CKs ago, and otherwise it stays",
+                &["pair.old"],
+                next.pair.old.equals(taken.mux(sample, q.pair.old)),
+            ),
+        ]
+    }
 }
 
 impl Specified for RamHistory {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let &RamHistory { stages, position } = self;
-        let addresses = 1u64 << tap_width(stages);
-        Invariants::<Self>::new()
-            .step(
-                "CK writes the sample at address and counts address up, and changes no other word",
-                move |now, next| {
-                    let (ck, at) = (now.i.ck, now.q.address);
-                    let address = (at + u64::from(ck)) % addresses;
-                    let right = next.q.address == address
-                        && (0..addresses).all(|place| {
-                            let sample = match ck && place == at {
-                                true => stored(now.i.position, position),
-                                false => now.q.samples[place as usize],
-                            };
-                            next.q.samples[place as usize] == sample
-                        });
-                    require(right, ["samples", "address"], || format!("at {at}"))
-                },
-            )
-            .step(
-                "at CK, pair.old becomes the sample of tap CKs ago, and otherwise it stays",
-                move |now, next| {
-                    let (tap, q) = (now.i.tap, now.q);
-                    let old = match now.i.ck && tap > 0 && tap <= stages as u64 {
-                        true => q.samples[((q.address + addresses - tap) % addresses) as usize],
-                        false => stored(q.pair.old, position),
-                    };
-                    let given = stored(next.q.pair.old, position);
-                    require(given == old, ["pair.old"], || {
-                        format!("{given} where {old} is expected")
-                    })
-                },
-            )
-    }
-
     fn applies(&self, i: &In<Value>) -> bool {
         ratio_follows(i)
     }
