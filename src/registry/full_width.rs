@@ -21,6 +21,11 @@ fn circuits() -> impl Iterator<Item = &'static Entry> {
     })
 }
 
+/// Returns those that a visit of all states proves.
+fn visitable() -> impl Iterator<Item = &'static Entry> {
+    circuits().filter(|entry| entry.proved)
+}
+
 fn concluded(model: &Elaborated, limit: Duration) -> Vec<Concluded<Violation>> {
     conclude(model, limit).expect("it has properties")
 }
@@ -114,7 +119,7 @@ fn faulty(entry: &Entry, few: usize) -> Vec<(String, crate::hdl::Mutation)> {
 
 #[test]
 fn results_at_small_widths_are_those_of_a_visit_of_all_states() {
-    for entry in circuits() {
+    for entry in visitable() {
         let small = entry.small().model().expect("it can be elaborated");
         assert!(!agree(entry, &small, "without a fault"));
         let mut found = 0;
@@ -130,7 +135,7 @@ fn results_at_small_widths_are_those_of_a_visit_of_all_states() {
 
 #[test]
 fn faults_are_found_at_full_width() {
-    for entry in circuits() {
+    for entry in visitable() {
         let mut found = 0;
         for (name, mutation) in faulty(entry, 16) {
             let of = |base: &dyn Fn() -> Result<Elaborated, crate::engine::EngineError>| {
