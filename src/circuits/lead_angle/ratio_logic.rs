@@ -126,44 +126,104 @@ impl Circuit for RatioLogic {
         };
         (net, Nothing)
     }
-}
 
-impl Specified for RatioLogic {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let codes = codes::grid(self.stages as u64);
-        let known = codes.clone();
-        Invariants::<Self>::new()
-            .always(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (time, w) = (now.i.lead_time, &now.w);
+        let none = time.is_zero();
+        let nothing = w.ratio.is_zero() & w.tap.is_zero() & w.on_grid;
+        let mut known = !none | nothing;
+        let mut around = !(w.code.is_zero() ^ none);
+        let mut on_grid = none;
+        for codes in self.codes() {
+            let is_code = codes.reach(time) & is_multiple(codes.ratio, time);
+            known = known & (!is_code | (codes.divided(w, time) & w.on_grid));
+            around = around & codes.around(time, w.code);
+            on_grid = on_grid | is_code;
+        }
+        let last = 10 * self.stages as u64;
+        let beyond = !time.below(last);
+        let product = w.ratio.times(w.tap, self.tap() + 4).equals_any(w.code);
+        vec![
+            Property::always(
                 "on_grid is high only if lead_time is a code, with the ratio and tap of that code",
-                move |now| {
-                    let time = now.i.lead_time;
-                    let given = (now.w.ratio, now.w.tap, now.w.on_grid);
-                    let code = known.iter().find(|code| code.time == time);
-                    let right = match (time, code) {
-                        (0, _) => given == (0, 0, true),
-                        (_, Some(code)) => given == (code.ratio, code.tap, true),
-                        (_, None) => !given.2,
-                    };
-                    require(right, ["ratio", "tap", "on_grid"], || {
-                        format!("{given:?} for {time}")
-                    })
-                },
-            )
-            .always(
+                &["ratio", "tap", "on_grid"],
+                known & (on_grid | !w.on_grid),
+            ),
+            Property::always(
                 "code is one of the two codes around lead_time, or the last for longer times",
-                move |now| {
-                    let (time, code) = (now.i.lead_time, now.w.code);
-                    let below = codes.iter().rev().find(|code| code.time <= time);
-                    let above = codes.iter().find(|code| code.time >= time);
-                    let around = [below, above].map(|code| code.map_or(0, |code| code.time));
-                    let product = now.w.ratio * now.w.tap;
-                    let right =
-                        around.contains(&code) && code == product && (code > 0) == (time > 0);
-                    require(right, ["code"], || format!("{code} for {time}, {around:?}"))
-                },
-            )
+                &["code"],
+                around & product & (!beyond | w.code.equals(last)),
+            ),
+        ]
     }
 }
+
+/// Codes of a ratio.
+struct Codes {
+    ratio: u64,
+    /// Last code of the ratio before.
+    before: u64,
+    /// First code.
+    first: u64,
+    /// Last code.
+    last: u64,
+}
+
+impl RatioLogic {
+    fn codes(&self) -> [Codes; 4] {
+        let stages = self.stages as u64;
+        [(1, 0), (2, 1), (5, 2), (10, 5)].map(|(ratio, smaller)| Codes {
+            ratio,
+            before: smaller * stages,
+            first: (smaller * stages / ratio + 1) * ratio,
+            last: ratio * stages,
+        })
+    }
+}
+
+impl Codes {
+    /// High if a time is none before the first code and none past the last.
+    fn reach(&self, time: U) -> Bit {
+        !time.below(self.first) & time.below(self.last + 1)
+    }
+
+    /// High if the ratio is this one, and the tap the time divided by it.
+    fn divided(&self, w: &Net, time: U) -> Bit {
+        let ratio = U::new(self.ratio, 4);
+        let product = w.tap.times(ratio, w.tap.width() + 4);
+        w.ratio.equals(ratio) & product.equals_any(time)
+    }
+
+    /// High if `code` is one of the two around a time that these codes reach, or that is between
+    /// them and the ratio before.
+    fn around(&self, time: U, code: U) -> Bit {
+        let apart = code.below(time).mux(time - code, code - time);
+        let near = is_multiple(self.ratio, code) & apart.below(self.ratio);
+        let between = !time.below(self.before + 1) & time.below(self.first);
+        let end = code.equals(self.before) | code.equals(self.first);
+        (!self.reach(time) | near) & (!between | end)
+    }
+}
+
+/// High if a time of 13 bits at most is a multiple of a ratio.
+fn is_multiple(ratio: u64, time: U) -> Bit {
+    // 16 is 1 modulo 5, so a word is the sum of its hexadecimal digits.
+    let digits = |word: U| {
+        let digits = [0, 4, 8, 12].map(|low| word.slice(low, 4).resize(16));
+        digits[0] + digits[1] + digits[2] + digits[3]
+    };
+    let rest = digits(digits(time.resize(16)));
+    let five = [5, 10, 15].map(|multiple| rest.equals(multiple));
+    let five = rest.is_zero() | five[0] | five[1] | five[2];
+    match ratio {
+        1 => Bit::high(),
+        2 => !time.bit(0),
+        5 => five,
+        _ => five & !time.bit(0),
+    }
+}
+
+impl Specified for RatioLogic {}
 
 #[cfg(test)]
 mod tests {

@@ -15,6 +15,7 @@
 //! of the [ratio logic](super::ratio_logic), or if a learned time is written in the same tick.
 //! Buffer 29 is the memory's output register.
 
+use super::target_setter::words_to_compare;
 use crate::prelude::*;
 
 /// Time data supply 21; a time is at the output in the tick after `load`.
@@ -116,56 +117,42 @@ impl Circuit for TimeData {
         };
         (net, edge)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let own = i.common.mux(0, i.step);
+        let lead_time = i.load.mux(q.times.read(own), q.lead_time);
+        let done = i.write_on_grid & !i.learned;
+        let mut stored = Bit::high();
+        for step in words_to_compare(&q.times, [i.step, i.write_step]) {
+            let writes = i.write & done & i.write_step.equals(step);
+            let kept = writes.mux(i.write_time, q.times.read(step));
+            let learns = i.learned & own.equals(step);
+            let time = learns.mux(i.learned_time, kept);
+            stored = stored & next.times.read(step).equals(time);
+        }
+        let refused = (i.write & !done) | (q.refused & !i.clear);
+        vec![
+            Property::step(
+                "lead_time is the time that was loaded last",
+                &["lead_time"],
+                next.lead_time.equals(lead_time),
+            ),
+            Property::step(
+                "a learned time is stored for its step, else a write on the grid for write_step",
+                &["times"],
+                stored,
+            ),
+            Property::step(
+                "refused is set by a write that is not stored, and stays until clear",
+                &["refused"],
+                !(next.refused ^ refused),
+            ),
+        ]
+    }
 }
 
 impl Specified for TimeData {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let own = |i: &In<Value>| if i.common { 0 } else { i.step };
-        Invariants::<Self>::new()
-            .step(
-                "lead_time is the time that was loaded last",
-                move |now, next| {
-                    let expected = match now.i.load {
-                        true => now.q.times[own(now.i) as usize],
-                        false => now.q.lead_time,
-                    };
-                    require(next.q.lead_time == expected, ["lead_time"], || {
-                        format!("{expected} expected")
-                    })
-                },
-            )
-            .step(
-                "a learned time is stored for its step, else a write on the grid for write_step",
-                move |now, next| {
-                    let i = now.i;
-                    let right = (0..1 << self.step).all(|step: u64| {
-                        let written = i.write && i.write_on_grid && !i.learned;
-                        let expected = if i.learned && own(i) == step {
-                            i.learned_time
-                        } else if written && i.write_step == step {
-                            i.write_time
-                        } else {
-                            now.q.times[step as usize]
-                        };
-                        next.q.times[step as usize] == expected
-                    });
-                    require(right, ["times"], || "another".into())
-                },
-            )
-            .step(
-                "refused is set by a write that is not stored, and stays until clear",
-                |now, next| {
-                    let i = now.i;
-                    let done = i.write_on_grid && !i.learned;
-                    let held = now.q.refused && !i.clear;
-                    let refused = (i.write && !done) || held;
-                    require(next.q.refused == refused, ["refused"], || {
-                        format!("{refused} expected")
-                    })
-                },
-            )
-    }
-
     /// Two values of the data, which are only stored.
     fn applies(&self, i: &In<Value>) -> bool {
         let most = (1 << self.time) - 1;

@@ -55,21 +55,17 @@ impl Circuit for TimeLimit {
         };
         (net, Nothing)
     }
-}
 
-impl Specified for TimeLimit {
-    fn invariants(&self) -> Invariants<'_, Self> {
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (time, w) = (now.i.lead_time, &now.w);
         let longest = self.stages as u64;
-        Invariants::<Self>::new().always(
+        let limited = time.below(longest).mux(time, longest);
+        vec![Property::always(
             "code is lead_time limited to the history, and on_grid is low if it was limited",
-            move |now| {
-                let time = now.i.lead_time;
-                let right =
-                    now.w.code == time.min(longest) && now.w.on_grid == (time == now.w.code);
-                require(right, ["code", "on_grid"], || {
-                    format!("{:?} of {time}", now.w)
-                })
-            },
-        )
+            &["code", "on_grid"],
+            w.code.equals(limited) & !(w.on_grid ^ time.equals(w.code)),
+        )]
     }
 }
+
+impl Specified for TimeLimit {}
