@@ -96,60 +96,47 @@ impl Circuit for SpeedDetector {
         };
         (net, edge)
     }
-}
 
-impl Specified for SpeedDetector {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let range = 1i128 << self.position;
-        Invariants::<Self>::new()
-            .step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let last = !q.count.below(i.gate - 1) | i.gate.is_zero();
+        let ends = i.ck & q.begun & last;
+        let way = i.position - q.gate_position;
+        let measured = next.speed.equals(ends.mux(way, q.speed));
+        let enough = (q.enough | ends) & !i.restart;
+
+        let begins = ends | (i.ck & !q.begun);
+        let start = begins.mux(i.position, q.gate_position);
+        let more = next.count.equals(q.count + 1) & q.count.below(next.count);
+        let counted = i.ck.mux(more, next.count.equals(q.count));
+        let counts = (begins | i.restart).mux(next.count.is_zero(), counted);
+        let begun = (q.begun | i.ck) & !i.restart;
+
+        let sample = i.ck.mux(i.position, q.present);
+        let fresh = i.ck & !i.restart;
+        vec![
+            Property::step(
                 "only the last CK of a gate sets speed, to the distance moved in the gate",
-                move |now, next| {
-                    let (q, i, next) = (now.q, now.i, &next.q);
-                    let ends = i.ck && q.begun && q.count + 1 >= i.gate.max(1);
-                    let way = i.position - q.gate_position;
-                    let right = match ends {
-                        true => i128::from(way - next.speed) % range == 0,
-                        false => next.speed == q.speed,
-                    };
-                    let enough = (q.enough || ends) && !i.restart;
-                    require(right && next.enough == enough, ["speed", "enough"], || {
-                        format!("a way of {way}")
-                    })
-                },
-            )
-            .step(
+                &["speed", "enough"],
+                measured & !(next.enough ^ enough),
+            ),
+            Property::step(
                 "a gate begins when the previous one ends, or with the first sample",
-                |now, next| {
-                    let (q, i, next) = (now.q, now.i, &next.q);
-                    let ends = i.ck && q.begun && q.count + 1 >= i.gate.max(1);
-                    let first = i.ck && !q.begun;
-                    let position = if ends || first {
-                        i.position
-                    } else {
-                        q.gate_position
-                    };
-                    let count = match ends || first || i.restart {
-                        true => 0,
-                        false => q.count + u64::from(i.ck),
-                    };
-                    let begun = (q.begun || i.ck) && !i.restart;
-                    let right = next.gate_position == position
-                        && next.count == count
-                        && next.begun == begun;
-                    require(right, ["gate_position", "count", "begun"], || {
-                        format!("{} of {}", next.count, i.gate)
-                    })
-                },
-            )
-            .step(
+                &["gate_position", "count", "begun"],
+                next.gate_position.equals(start) & counts & !(next.begun ^ begun),
+            ),
+            Property::step(
                 "present holds the last sample, and fresh is high in the tick after CK",
-                |now, next| {
-                    let (ck, restart) = (now.i.ck, now.i.restart);
-                    let present = if ck { now.i.position } else { now.q.present };
-                    let right = next.q.present == present && next.q.fresh == (ck && !restart);
-                    require(right, ["present", "fresh"], || "another".into())
-                },
-            )
+                &["present", "fresh"],
+                next.present.equals(sample) & !(next.fresh ^ fresh),
+            ),
+            Property::helper(
+                "the count never reaches its greatest value",
+                &["count"],
+                q.count.below(u64::MAX.cut(self.gate)),
+            ),
+        ]
     }
 }
+
+impl Specified for SpeedDetector {}

@@ -91,22 +91,23 @@ impl Circuit for SpeedLead {
         };
         (net, Nothing)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        // In units of 1/256 count, modulo the range of a position.
+        let bits = self.position + 8;
+        let factor = now.i.lead_parameter.resize(15).signed();
+        let product = now.p.detector.q.speed.times(factor, self.position + 15);
+        let lead = now.w.lead.resize(bits).shift_left(8);
+        let rest = (product.resize(bits) - lead).unsigned();
+        vec![Property::always(
+            "lead is speed times lead_parameter divided by 256, rounded down",
+            &["lead"],
+            rest.below(256),
+        )]
+    }
 }
 
 impl Specified for SpeedLead {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let range = 1i128 << self.position;
-        Invariants::<Self>::new().always(
-            "lead is speed times lead_parameter divided by 256, rounded down",
-            move |now| {
-                let product = i128::from(now.p.detector.q.speed) * i128::from(now.i.lead_parameter);
-                let lead = i128::from(now.w.lead);
-                let right = (product.div_euclid(256) - lead) % range == 0;
-                require(right, ["lead"], || format!("{lead} for {product}"))
-            },
-        )
-    }
-
     /// Parameters as a proof can bear: none, one half, one, the greatest.
     fn applies(&self, i: &In<Value>) -> bool {
         [0, 128, 256, 16_383].contains(&i.lead_parameter)

@@ -92,6 +92,15 @@ impl TableLead {
         let words = words.iter().map(|word| (*word as u64).cut(self.position));
         Image::of(self.table.address(), self.position, words)
     }
+
+    /// Returns a speed, limited to the range of the memory.
+    fn limited(&self, speed: I) -> I {
+        let bits = self.table.bits();
+        let greatest = (1 << (bits - 1)) - 1;
+        let upper = speed.below(greatest).mux(speed, greatest);
+        let least = -greatest - 1;
+        speed.below(least).mux(least, upper).resize(bits)
+    }
 }
 
 /// The word at a speed of 0.
@@ -217,29 +226,28 @@ impl Circuit for TableLead {
         };
         (net, edge)
     }
-}
 
-impl Specified for TableLead {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let LeadTable {
-            leads,
-            increments,
-            fraction,
-        } = &self.table;
-        let words = |words: &[i64]| words.iter().copied().map(i128::from).collect::<Vec<_>>();
-        let (leads, increments) = (words(leads), words(increments));
-        let (range, spacing) = (1i128 << self.position, 1i128 << fraction);
-        Invariants::<Self>::new().always(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (q, fraction) = (&now.q, self.table.fraction);
+        let word = self.limited(now.p.detector.q.speed).unsigned();
+        let address = word.slice(fraction, self.table.address());
+        let read = |words: &[i64]| self.image(words).rom(address).signed();
+        // The registers are those of the speed, and the lead is theirs.
+        let base = q.base.equals(read(&self.table.leads));
+        let increment = q.increment.equals(read(&self.table.increments));
+        let registers = base & increment & q.part.equals(word.slice(0, fraction));
+        // In units of 2^−fraction counts, modulo the range of a position.
+        let bits = self.position + fraction;
+        let part = q.part.resize(fraction + 1).signed();
+        let product = q.increment.times(part, bits + 1).resize(bits);
+        let grown = (now.w.lead - q.base).resize(bits).shift_left(fraction);
+        let rest = (product - grown).unsigned();
+        vec![Property::always(
             "lead is interpolated between the table words around the speed, rounded down",
-            move |now| {
-                let half = leads.len() as i128 / 2 * spacing;
-                let speed = i128::from(now.see(|s| s.p.detector.q.speed)).clamp(-half, half - 1);
-                let word = speed.div_euclid(spacing).rem_euclid(leads.len() as i128) as usize;
-                let grown = (increments[word] * speed.rem_euclid(spacing)).div_euclid(spacing);
-                let lead = i128::from(now.see(|s| s.w.lead));
-                let right = (leads[word] + grown - lead).rem_euclid(range) == 0;
-                require(right, ["lead"], || format!("{lead} at {speed}"))
-            },
-        )
+            &["lead"],
+            registers & rest.shift_right(fraction).is_zero(),
+        )]
     }
 }
+
+impl Specified for TableLead {}

@@ -76,6 +76,15 @@ impl TrackingLoop {
     const fn least(&self) -> i64 {
         1 << self.angle.saturating_sub(2)
     }
+
+    /// Returns the error, rounded, in the width of a phase. No bit is lost on the way.
+    fn rounded(&self, i: &In) -> I {
+        let exact = |word: I| word.resize(self.vector() + 2);
+        let (sine, cosine) = (exact(i.quadrature), exact(i.in_phase));
+        let beyond = sine.is_negative().mux(sine + cosine, sine - cosine);
+        let error = cosine.is_negative().mux(beyond, sine);
+        (error + 8).shift_right(4).resize(self.phase())
+    }
 }
 
 signals! { for TrackingLoop as c;
@@ -83,7 +92,8 @@ signals! { for TrackingLoop as c;
     pub struct In {
         /// The CORDIC has a result: `quadrature` and `in_phase` are valid.
         pub done: Bit,
-        /// a·sin(θ − φ), times the CORDIC's gain.
+        /// a·sin(θ − φ), times the CORDIC's gain. The magnitudes of `quadrature` and `in_phase` add
+        /// up to less than 2^(A + 1).
         pub quadrature: I(c.vector()) as Analog,
         /// a·cos(θ − φ), times the CORDIC's gain.
         pub in_phase: I(c.vector()) as Analog,
@@ -156,54 +166,38 @@ impl Circuit for TrackingLoop {
         };
         (net, next)
     }
-}
 
-impl Specified for TrackingLoop {
-    /// A vector is at most full scale in both coordinates, times the CORDIC's gain.
-    fn applies(&self, i: &In<Value>) -> bool {
-        let length = i.quadrature.unsigned_abs() + i.in_phase.unsigned_abs();
-        length < 2 << self.angle
-    }
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let (error, done) = (self.rounded(i), i.done);
+        let speed = q.speed + error;
+        let gained = error.shift_left(2 + self.smoothing);
+        let phase = q.phase + (speed + gained).unsigned();
+        let moved = next.speed.equals(speed) & next.phase.equals(phase);
+        let stays = next.speed.equals(q.speed) & next.phase.equals(q.phase);
 
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let pitch = 1i64 << self.phase();
-        let conversions = (1u64 << self.settling) - 1;
-        Invariants::<Self>::new()
-            .step(
+        let over = q.settled.equals(u64::MAX.cut(self.settling));
+        let counts = (done & !over).mux(q.settled + 1, q.settled);
+        let small = i.in_phase.below(1i64 << (self.angle - 2));
+        let length = i.quadrature.magnitude().plus(i.in_phase.magnitude());
+        vec![
+            Property::step(
                 "only a conversion changes speed and phase, and it corrects them by the error",
-                move |now, next| {
-                    let (sine, cosine) = (now.i.quadrature, now.i.in_phase);
-                    let error = match (cosine < 0, sine < 0) {
-                        (false, _) => sine,
-                        (true, false) => sine - cosine,
-                        (true, true) => sine + cosine,
-                    };
-                    let error = (error + 8).div_euclid(16);
-                    let gain = 4i64 << self.smoothing;
-                    let (speed, phase) = match now.i.done {
-                        true => {
-                            let speed = now.q.speed + error;
-                            (speed, now.q.phase as i64 + speed + gain * error)
-                        }
-                        false => (now.q.speed, now.q.phase as i64),
-                    };
-                    let right = (next.q.speed - speed).rem_euclid(pitch) == 0
-                        && (next.q.phase as i64 - phase).rem_euclid(pitch) == 0;
-                    require(right, ["speed", "phase"], || format!("an error of {error}"))
-                },
-            )
-            .step(
+                &["speed", "phase"],
+                done.mux(moved, stays),
+            ),
+            Property::step(
                 "take is high with done once settled, and fault while in_phase is too small",
-                move |now, next| {
-                    let over = now.q.settled == conversions;
-                    let settled = now.q.settled + u64::from(now.i.done && !over);
-                    let right = now.see(|s| s.w.take) == (now.i.done && over)
-                        && next.q.settled == settled
-                        && now.see(|s| s.w.fault) == (4 * now.i.in_phase < 1 << self.angle);
-                    require(right, ["take", "settled", "fault"], || {
-                        format!("{settled} conversions")
-                    })
-                },
-            )
+                &["take", "settled", "fault"],
+                !(w.take ^ (done & over)) & next.settled.equals(counts) & !(w.fault ^ small),
+            ),
+            // Each winding is at most full scale, 2^(A − 1), and the gain of the CORDIC below 2.
+            Property::given(
+                "the magnitudes of quadrature and in_phase add up to less than 2^(angle + 1)",
+                length.below(2u64 << self.angle),
+            ),
+        ]
     }
 }
+
+impl Specified for TrackingLoop {}

@@ -125,42 +125,33 @@ impl Circuit for Unwrapper {
         };
         (net, next)
     }
-}
 
-impl Specified for Unwrapper {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let range = 1i64 << self.position;
-        let all = 1i64 << self.place;
-        Invariants::<Self>::new().step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let wide = |word: U| word.resize(self.place + 2).signed();
+        let counts = i.modulus.is_zero().word().join(i.modulus);
+        let gone = wide(i.place) - wide(q.last);
+        let across = counts.shift_right(1).below_any(gone.magnitude());
+        let back = gone
+            .is_negative()
+            .mux(gone + wide(counts), gone - wide(counts));
+        let way = across.mux(back, gone);
+        let far = counts.shift_right(2).below_any(way.magnitude());
+
+        let counted = i.take & !i.fault;
+        let first = i.place.resize(self.position).signed();
+        let moved = q.known.mux(q.position + way.resize(self.position), first);
+        let position = next.position.equals(counted.mux(moved, q.position));
+        let last = next.last.equals(counted.mux(i.place, q.last));
+        let known = (q.known | counted) & !i.clear;
+        let lost = (q.lost | (i.take & (i.fault | (q.known & far)))) & !i.clear;
+        let flags = !(next.sample ^ i.take) & !(next.lost ^ lost) & !(next.known ^ known);
+        vec![Property::step(
             "the first sample loads its place, and each later one adds the shorter way round",
-            move |now, next| {
-                let (i, q, after) = (now.i, now.q, &next.q);
-                let counts = if i.modulus == 0 {
-                    all
-                } else {
-                    i.modulus as i64
-                };
-                let gone = i.place as i64 - q.last as i64;
-                let ways = [gone, gone - counts, gone + counts];
-                let way = ways.into_iter().min_by_key(|way| way.abs()).unwrap_or(gone);
-                let far = way.abs() > counts / 4;
-                let position = match (i.take && !i.fault, q.known) {
-                    (false, _) => q.position,
-                    (true, false) => i.place as i64,
-                    (true, true) => q.position + way,
-                };
-                let counted = i.take && !i.fault;
-                let lost = q.lost || (i.take && (i.fault || (q.known && far)));
-                let right = (after.position - position).rem_euclid(range) == 0
-                    && after.last == if counted { i.place } else { q.last }
-                    && after.sample == i.take
-                    && after.lost == (lost && !i.clear)
-                    && after.known == ((q.known || counted) && !i.clear);
-                let signals = ["position", "last", "sample", "lost", "known"];
-                require(right, signals, || {
-                    format!("{} by {way} of {counts}", after.position)
-                })
-            },
-        )
+            &["position", "last", "sample", "lost", "known"],
+            position & last & flags,
+        )]
     }
 }
+
+impl Specified for Unwrapper {}
