@@ -128,67 +128,57 @@ impl Circuit for Refinement {
         };
         (net, edge)
     }
-}
 
-impl Specified for Refinement {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let range = 2i64 << self.time;
-        let words = |w: &Net<Value>| (w.first_factor, w.second_factor, w.divide_by);
-        Invariants::<Self>::new()
-            .always(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let [idle, first, second] = [IDLE, FIRST, SECOND].map(|state| q.state.equals(state));
+        let refined = first & q.error_amount.below(q.overrun_amount);
+        let (starts, again) = (idle & i.start, refined & i.divider_done);
+        let time = i.multiplier.resize(self.time + 1);
+        let first_order = {
+            let change = i.quotient.resize(self.time + 1);
+            let shorter = time.equals(w.second_factor + change);
+            i.negative
+                .mux(shorter, w.second_factor.equals(time + change))
+        };
+        let amounts = |amount, by| w.first_factor.equals(amount) & w.divide_by.equals(by);
+        let of_start = amounts(i.multiplicand, i.divisor) & w.second_factor.equals(time);
+        let of_first = amounts(q.error_amount, q.overrun_amount) & first_order;
+        let words = (!starts | of_start) & (!again | of_first);
+        let half = w.addend.equals(w.divide_by.shift_right(1));
+
+        let state = |state| U::new(state, 2);
+        let begun = i.start.mux(state(FIRST), state(IDLE));
+        let ended = refined.mux(state(SECOND), state(IDLE));
+        let expected = idle.mux(begun, i.divider_done.mux(ended, q.state));
+        let over = !idle & expected.is_zero();
+        let held =
+            |error, overrun| next.error_amount.equals(error) & next.overrun_amount.equals(overrun);
+        let stored = held(i.multiplicand, i.divisor);
+        let stays = held(q.error_amount, q.overrun_amount);
+        vec![
+            Property::always(
                 "divide is high at start, and after a first division with error below overrun",
-                move |now| {
-                    let (i, q, w) = (now.i, now.q, now.w);
-                    let sign = if i.negative { -1 } else { 1 };
-                    let first_order = i.multiplier as i64 + sign * i.quotient as i64;
-                    let expected = match (q.state, i.start, i.divider_done) {
-                        (IDLE, true, _) => Some((i.multiplicand, i.multiplier, i.divisor)),
-                        (FIRST, _, true) if q.error_amount < q.overrun_amount => Some((
-                            q.error_amount,
-                            first_order.rem_euclid(range) as u64,
-                            q.overrun_amount,
-                        )),
-                        _ => None,
-                    };
-                    let right = w.divide == expected.is_some()
-                        && expected.is_none_or(|expected| words(w) == expected)
-                        && w.addend == w.divide_by / 2;
-                    require(right, ["divide", "second_factor"], || {
-                        format!("{:?} where {expected:?} is expected", words(w))
-                    })
-                },
-            )
-            .step(
+                &["divide", "second_factor"],
+                !(w.divide ^ (starts | again)) & words & half,
+            ),
+            Property::step(
                 "an error below the overrun needs a second division, and done follows the last",
-                |now, next| {
-                    let (i, q) = (now.i, now.q);
-                    let refined = q.state == FIRST && q.error_amount < q.overrun_amount;
-                    let state = match (q.state, i.divider_done) {
-                        (IDLE, _) => u64::from(i.start) * FIRST,
-                        (state, false) => state,
-                        (_, true) if refined => SECOND,
-                        (_, true) => IDLE,
-                    };
-                    let done = q.state != IDLE && state == IDLE;
-                    let found = (next.q.state, next.q.done);
-                    require(found == (state, done), ["state", "done"], || {
-                        format!("{found:?} where {state} and {done} are expected")
-                    })
-                },
-            )
-            .step(
+                &["state", "done"],
+                next.state.equals(expected) & !(next.done ^ over),
+            ),
+            Property::step(
                 "start in idle stores error_amount and overrun_amount, and otherwise they stay",
-                |now, next| {
-                    let (i, q) = (now.i, now.q);
-                    let expected = match q.state == IDLE && i.start {
-                        true => (i.multiplicand, i.divisor),
-                        false => (q.error_amount, q.overrun_amount),
-                    };
-                    let held = (next.q.error_amount, next.q.overrun_amount);
-                    require(held == expected, ["error_amount", "overrun_amount"], || {
-                        format!("{held:?} where {expected:?} is expected")
-                    })
-                },
-            )
+                &["error_amount", "overrun_amount"],
+                starts.mux(stored, stays),
+            ),
+            Property::helper(
+                "state is idle, first or second",
+                &["state"],
+                idle | first | second,
+            ),
+        ]
     }
 }
+
+impl Specified for Refinement {}

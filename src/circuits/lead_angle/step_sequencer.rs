@@ -172,117 +172,86 @@ impl Circuit for StepSequencer {
         };
         (net, edge)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let is = |state: u64| q.state.equals(state);
+        let to = |state: u64| next.state.equals(state);
+        let outputs = !(q.load ^ is(LOAD)) & !(q.arm ^ is(ARM)) & !(q.braking ^ is(BRAKE));
+        let drive = to(MOVE) | (i.passing & q.drive & !to(IDLE));
+
+        let following = q.step.below(i.last_step).mux(q.step + 1, 0);
+        let step = (is(REST) & !to(REST)).mux(following, q.step);
+        let down = (i.target - i.position).is_negative();
+        let reverse = is(ARM).mux(down, q.reverse);
+
+        let halts = i.halt & is(MOVE) & !q.missed;
+        let stopped = is(BRAKE) & q.drive & !i.passing;
+        let missed = (q.missed | halts | stopped) & !is(LOAD);
+        let more = next.count.equals(q.count + 1) & q.count.below(next.count);
+        let counted = i.ck.mux(more, next.count.equals(q.count));
+        let counts = (is(REST) & to(REST)).mux(counted, next.count.is_zero());
+        vec![
+            Property::step(
+                "every transition is one of the sequence of a step",
+                &["state"],
+                next.state.equals(after(i, q)),
+            ),
+            Property::always(
+                "load, arm and braking are high in their own state only, busy in all but idle",
+                &["load", "arm", "braking", "busy"],
+                outputs & (q.busy ^ is(IDLE)),
+            ),
+            Property::step(
+                "drive is high in move, low in idle, and elsewhere stays high only with passing",
+                &["drive"],
+                !(next.drive ^ drive),
+            ),
+            Property::step(
+                "step advances at the end of rest, from last_step to 0",
+                &["step"],
+                next.step.equals(step),
+            ),
+            Property::step(
+                "in arm, reverse is set for the shorter way to the target, and otherwise it stays",
+                &["reverse"],
+                !(next.reverse ^ reverse),
+            ),
+            Property::step(
+                "the first halt in move makes halting high for a tick and sets missed, and a stop \
+                 in place of an operation also sets missed",
+                &["halting", "missed"],
+                !(next.halting ^ halts) & !(next.missed ^ missed),
+            ),
+            Property::step(
+                "count counts CKs in rest, and is 0 otherwise",
+                &["count"],
+                counts,
+            ),
+        ]
+    }
 }
 
-/// The state after this one.
-fn after(q: &Reg<Value>, i: &In<Value>) -> u64 {
-    let begin = if i.run { LOAD } else { IDLE };
-    match q.state {
-        IDLE => begin,
-        LOAD => ARM,
-        ARM if i.evaluate => MOVE,
-        MOVE if i.control => BRAKE,
-        BRAKE if i.complete => CORRECT,
-        CORRECT if i.corrected => REST,
-        REST if q.count >= i.rest => begin,
-        other => other,
+/// Returns the state after this one.
+fn after(i: &In, q: &Reg<Open>) -> U {
+    let begin = i.run.mux(U::new(LOAD, 3), IDLE);
+    let onwards = [
+        (IDLE, Bit::high(), begin),
+        (LOAD, Bit::high(), U::new(ARM, 3)),
+        (ARM, i.evaluate, U::new(MOVE, 3)),
+        (MOVE, i.control, U::new(BRAKE, 3)),
+        (BRAKE, i.complete, U::new(CORRECT, 3)),
+        (CORRECT, i.corrected, U::new(REST, 3)),
+        (REST, !q.count.below(i.rest), begin),
+    ];
+    let mut after = q.state;
+    for (state, ends, then) in onwards {
+        after = (q.state.equals(state) & ends).mux(then, after);
     }
+    after
 }
 
 impl Specified for StepSequencer {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let half = 1i64 << (self.position - 1);
-        Invariants::<Self>::new()
-            .step(
-                "every transition is one of the sequence of a step",
-                |now, next| {
-                    let expected = after(now.q, now.i);
-                    require(next.q.state == expected, ["state"], || {
-                        format!("{} expected", STATES[expected as usize])
-                    })
-                },
-            )
-            .always(
-                "load, arm and braking are high in their own state only, busy in all but idle",
-                |now| {
-                    let q = now.q;
-                    let right = q.load == (q.state == LOAD)
-                        && q.arm == (q.state == ARM)
-                        && q.braking == (q.state == BRAKE)
-                        && q.busy == (q.state != IDLE);
-                    require(right, ["load", "arm", "braking", "busy"], || {
-                        format!("in {}", STATES[q.state as usize])
-                    })
-                },
-            )
-            .step(
-                "drive is high in move, low in idle, and elsewhere stays high only with passing",
-                |now, next| {
-                    let stays = now.i.passing && now.q.drive;
-                    let expected = match next.q.state {
-                        MOVE => true,
-                        IDLE => false,
-                        _ => stays,
-                    };
-                    require(next.q.drive == expected, ["drive"], || {
-                        format!("{expected} expected")
-                    })
-                },
-            )
-            .step(
-                "step advances at the end of rest, from last_step to 0",
-                |now, next| {
-                    let ends = now.q.state == REST && next.q.state != REST;
-                    let step = now.q.step;
-                    let expected = match ends {
-                        true if step >= now.i.last_step => 0,
-                        true => step + 1,
-                        false => step,
-                    };
-                    require(next.q.step == expected, ["step"], || {
-                        format!("{expected} expected")
-                    })
-                },
-            )
-            .step(
-                "in arm, reverse is set for the shorter way to the target, and otherwise it stays",
-                move |now, next| {
-                    let armed = now.q.state == ARM;
-                    let way = now.i.target - now.i.position;
-                    let down = (way + half).rem_euclid(2 * half) < half;
-                    let expected = if armed { down } else { now.q.reverse };
-                    require(next.q.reverse == expected, ["reverse"], || {
-                        format!("a way of {way}")
-                    })
-                },
-            )
-            .step(
-                "the first halt in move makes halting high for a tick and sets missed, and a stop \
-                 in place of an operation also sets missed",
-                |now, next| {
-                    let q = now.q;
-                    let halts = now.i.halt && q.state == MOVE && !q.missed;
-                    let stopped = q.state == BRAKE && q.drive && !now.i.passing;
-                    let missed = (q.missed || halts || stopped) && q.state != LOAD;
-                    let right = next.q.halting == halts && next.q.missed == missed;
-                    require(right, ["halting", "missed"], || {
-                        format!("{halts} and {missed} expected")
-                    })
-                },
-            )
-            .step(
-                "count counts CKs in rest, and is 0 otherwise",
-                |now, next| {
-                    let stays = now.q.state == REST && next.q.state == REST;
-                    let more = now.q.count + u64::from(now.i.ck);
-                    let expected = if stays { more } else { 0 };
-                    require(next.q.count == expected, ["count"], || {
-                        format!("{expected} expected")
-                    })
-                },
-            )
-    }
-
     /// Two last steps and the greatest: any other differs in nothing.
     fn applies(&self, i: &In<Value>) -> bool {
         i.last_step < 2 || i.last_step + 1 == 1 << self.step

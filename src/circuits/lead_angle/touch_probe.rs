@@ -69,39 +69,27 @@ impl Circuit for TouchProbe {
         let measured = q.taken.mux(q.latched, i.present);
         (Net { comes, measured }, edge)
     }
-}
 
-impl Specified for TouchProbe {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let rises = i.effect & !q.effect_before;
+        let first = i.active & !q.taken & rises;
+        let taken = i.active & (q.taken | rises);
+        let latched = next.latched.equals(first.mux(i.position, q.latched));
+        let before = !(next.effect_before ^ i.effect);
+        vec![
+            Property::step(
                 "the first rise of effect while active is high stores the position in latched",
-                |now, next| {
-                    let (i, q, next) = (now.i, now.q, &next.q);
-                    let (taken, latched) = match (i.active, q.taken, q.effect_before, i.effect) {
-                        (true, false, false, true) => (true, i.position),
-                        (true, taken, ..) => (taken, q.latched),
-                        (false, ..) => (false, q.latched),
-                    };
-                    let right = next.taken == taken && next.latched == latched;
-                    require(
-                        right && next.effect_before == i.effect,
-                        ["taken", "latched"],
-                        || format!("{taken} and {latched} expected"),
-                    )
-                },
-            )
-            .always(
+                &["taken", "latched"],
+                !(next.taken ^ taken) & latched & before,
+            ),
+            Property::always(
                 "measured is latched after an effect, and the present position before it",
-                |now| {
-                    let expected = match now.q.taken {
-                        true => now.q.latched,
-                        false => now.i.present,
-                    };
-                    require(now.w.measured == expected, ["measured"], || {
-                        format!("{expected} expected")
-                    })
-                },
-            )
+                &["measured"],
+                w.measured.equals(q.taken.mux(q.latched, i.present)),
+            ),
+        ]
     }
 }
+
+impl Specified for TouchProbe {}
