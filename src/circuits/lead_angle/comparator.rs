@@ -56,13 +56,13 @@ signals! { for Comparator as c;
         pub evaluate: Bit,
         /// Position and target are valid.
         pub valid: Bit,
-        /// Position, with its share of the lead.
+        /// Position, plus the part of the lead that is added to it.
         pub position: I(c.position),
-        /// Target, with its share of the lead.
+        /// Target, minus the part of the lead that is subtracted from it.
         pub target: I(c.position),
         /// Clears the control signal and forgets the side; has priority over all other inputs.
         pub arm: Bit,
-        /// Gives the control signal immediately.
+        /// Makes `control` high from the next tick on, without a crossing.
         pub halt: Bit,
     }
     /// Flip-flops.

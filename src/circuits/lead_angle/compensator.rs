@@ -114,7 +114,7 @@ signals! { for Compensator as c;
         pub time_out: U(c.widths.cks),
         /// Pause between two steps, in CKs.
         pub rest: U(c.widths.cks),
-        /// Time from which a step without a time begins to learn, in CKs.
+        /// Lead time, in CKs, that a step without one gets after its first stop error.
         pub seed: U(c.widths.time()),
         /// a of Fig. 7: lead time in units of 1/256 gate.
         pub lead_parameter: U(14),

@@ -117,7 +117,7 @@ signals! { for Correction as c;
         pub learn: Bit,
         /// The control signal did not come from the comparator.
         pub missed: Bit,
-        /// Time from which a step without a time begins to learn, in CKs.
+        /// Lead time, in CKs, that a step without one gets after its first stop error.
         pub seed: U(c.arithmetic().time()),
     }
     /// The circuits inside.

@@ -61,7 +61,7 @@ signals! { for CorrectionArithmetic as c;
         pub overrun: I(c.position),
         /// d2: distance past the target.
         pub error: I(c.position),
-        /// Time from which a step without a time begins to learn, in CKs.
+        /// Lead time, in CKs, that a step without one gets after its first stop error.
         pub seed: U(c.time()),
         /// The divider has a result.
         pub done: Bit,

@@ -53,9 +53,9 @@ signals! { for LeadPlacement as c;
     pub struct Net {
         /// Part of the lead that is added to the position.
         advance: I(c.position),
-        /// Dx plus its share of the lead.
+        /// Dx plus the part of the lead that is added to it.
         pub compared_position: I(c.position) as Analog,
-        /// Sx′: Sx minus its share of the lead.
+        /// Sx′: Sx minus the part of the lead that is subtracted from it.
         pub compared_target: I(c.position) as Analog,
     }
 }

@@ -63,9 +63,9 @@ signals! { for (PositionHistory, RamHistory, DifferenceHistory) as c;
     }
     /// Nets; also those of the [RAM form](super::ram_history).
     pub struct Net {
-        /// Stage to read, before the shift.
+        /// Stage of the earlier sample, before this tick's shift.
         pub(super) index: U(tap_width(c.stages)),
-        /// `old` is loaded: a sample is taken, and `index` is a stage of the history.
+        /// `old` takes a new value: a sample is taken, and the history has the stage `index`.
         pub(super) load: Bit,
         /// The history holds a sample for this tap.
         covered: Bit,

@@ -31,9 +31,9 @@ signals! { for RamHistory as c;
     pub struct Reg {
         /// Pair at the outputs.
         pub pair: Pair(c),
-        /// Write address of the next sample; the sample k CKs before it is at `address` − k.
+        /// Write address of the next sample. The sample taken k CKs before it is at `address` − k.
         address: U(tap_width(c.stages)) as Hex,
-        /// 11: the samples.
+        /// 11: memory of the samples.
         samples: Ram(tap_width(c.stages), c.position),
     }
 }

@@ -163,7 +163,7 @@ signals! { for TimeLead as c;
         pub restart: Bit,
         /// Position, in counts.
         pub position: I(c.position),
-        /// Δt in CKs, or the divided time data.
+        /// Δt in CKs; with the division `beforehand`, N and Δt/N.
         pub lead_time: U(c.word()),
     }
     /// The circuits inside.
@@ -179,11 +179,11 @@ signals! { for TimeLead as c;
     pub struct Net {
         /// Dx: present sample.
         pub present: I(c.position) as Analog,
-        /// N·Δx: lead. For the two products: the prediction Dx(+Δt).
+        /// Lead N·Δx; with the form `products`, the prediction Dx(+Δt).
         pub lead: I(c.position) as Analog,
         /// Sample and lead are new in this tick.
         pub fresh: Bit,
-        /// The history reaches back as far as the time needs.
+        /// The history goes back far enough for the lead time.
         pub enough: Bit,
         /// Δt in CKs, from time data that contain N and Δt/N.
         pub code: U(c.divided().time()) if (c.division == Division::Beforehand),

@@ -47,8 +47,9 @@ signals! { for TargetData as c;
         pub target_y: I(c.widths.position),
         /// Speed and times of the move to the target.
         pub settings: Settings(c) as Flat,
-        /// Ends the cycle, along the line or each axis on its own ramp, and discards the waiting
-        /// targets. A target pushed in the same tick is kept and comes next.
+        /// Ends the cycle and discards the waiting targets. The ramp down follows the line; in the
+        /// conventional system each axis has its own. A target pushed in the same tick is kept and
+        /// comes next.
         pub halt: Bit,
     }
 }

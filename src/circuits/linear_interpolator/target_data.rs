@@ -47,8 +47,8 @@ pub struct TargetData {
 signals! { for TargetData as c;
     /// Settings of a target: one of each for both axes, or X's and Y's.
     pub struct Settings {
-        /// Steady speed of the move, in counts per scan with `T` fraction bits; one for the master
-        /// axis, or one for each axis.
+        /// Steady speed of the master axis (in the conventional system: of one axis), in counts per
+        /// scan with `T` fraction bits.
         pub speed: [U(c.widths.position); c.settings] as Elements(SPEED),
         /// Acceleration time in scans.
         pub acceleration_time: [U(c.widths.time); c.settings] as Elements(ACCELERATION_TIME),

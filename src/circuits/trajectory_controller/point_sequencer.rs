@@ -130,7 +130,8 @@ signals! { for PointSequencer as c;
         ahead: I(c.widths.radius),
         /// First coordinate of the point within the segment.
         pub along: I(c.widths.radius),
-        /// Second coordinate: on a spline the square of the length, on a line 0.
+        /// Second coordinate: on an arc that of its point, on a spline the square of the length, on
+        /// a line 0.
         pub across: I(c.widths.radius),
         /// Third coordinate: on a helix the length, on a spline its cube, otherwise 0.
         pub third: I(c.widths.radius),
