@@ -5,6 +5,7 @@
 
 pub mod arc_generator;
 pub mod blocks;
+mod division;
 pub mod lead_angle;
 pub mod linear_interpolator;
 pub mod machine;

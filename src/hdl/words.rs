@@ -333,6 +333,25 @@ impl Bit {
         then.choose(self, other)
     }
 
+    /// High if both bits are the same.
+    #[track_caller]
+    pub fn equals(self, other: Bit) -> Bit {
+        !(self ^ other)
+    }
+
+    /// High unless this bit is high and `then` is low.
+    #[track_caller]
+    pub fn implies(self, then: Bit) -> Bit {
+        !self | then
+    }
+
+    /// High if all bits are.
+    #[track_caller]
+    pub fn all(bits: impl IntoIterator<Item = Bit>) -> Bit {
+        let all = bits.into_iter().reduce(|all, bit| all & bit);
+        all.unwrap_or_else(Bit::high)
+    }
+
     /// Returns the bit as a word of one bit.
     #[track_caller]
     pub fn word(self) -> U {

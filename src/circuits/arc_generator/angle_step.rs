@@ -60,33 +60,27 @@ impl Circuit for AngleStep {
         };
         (Net { difference }, next)
     }
-}
 
-impl Specified for AngleStep {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        vec![
+            Property::step(
                 "a step stores its angle in last, and nothing else changes last",
-                |now, next| {
-                    let expected = if now.i.step { now.i.angle } else { now.q.last };
-                    require(next.q.last == expected, ["last"], || {
-                        format!("not {expected}")
-                    })
-                },
-            )
-            .step(
+                &["last"],
+                next.last.equals(i.step.mux(i.angle, q.last)),
+            ),
+            Property::step(
                 "turn is high one tick after a step without halt, and at no other time",
-                |now, next| {
-                    let expected = now.i.step && !now.i.halt;
-                    require(next.q.turn == expected, ["turn"], || {
-                        format!("not {expected}")
-                    })
-                },
-            )
-            .always("last plus difference equals angle", |now| {
-                let sum = now.q.last + now.w.difference as i64;
-                let whole = (sum - now.i.angle) % (1 << self.width) == 0;
-                require(whole, ["difference"], || format!("{sum} instead"))
-            })
+                &["turn"],
+                next.turn.equals(i.step & !i.halt),
+            ),
+            Property::always(
+                "last plus difference equals angle",
+                &["difference"],
+                (q.last + now.w.difference.signed()).equals(i.angle),
+            ),
+        ]
     }
 }
+
+impl Specified for AngleStep {}

@@ -95,49 +95,39 @@ impl Circuit for PositionCommand {
         let holds = of.point > of.position && of.data >= of.point;
         (!holds).then(|| "there are guard bits, and a record holds them".into())
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let (guard, width) = (self.widths.guard(), self.widths.point);
+        let point = q.origin + i.rotating.mux(i.offset, i.polynomial);
+        // Half a count off at most, a half upwards, and as far as a command reaches.
+        let over = next.command.resize(width).shift_left(guard) - point;
+        let half = I::new(1 << (guard - 1), width);
+        let nearest = (-half).below(over) & !half.below(over);
+        let record = &i.record;
+        let own = record.is("origin_word", self.origin_word());
+        let given = record.data.resize(width).signed();
+        vec![
+            Property::step(
+                "present loads the point into the command, rounded to the nearest count",
+                &["command"],
+                i.present.implies(nearest),
+            ),
+            Property::step(
+                "the command changes only with present",
+                &["command"],
+                i.present | next.command.equals(q.command),
+            ),
+            Property::step(
+                "origin loads its own word of a record and no others",
+                &["origin"],
+                next.origin.equals(own.mux(given, q.origin)),
+            ),
+        ]
+    }
 }
 
 impl Specified for PositionCommand {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let count = 1i64 << self.widths.guard();
-        Invariants::<Self>::new()
-            .step(
-                "present loads the point into the command, rounded to the nearest count",
-                move |now, next| {
-                    let from = match now.i.rotating {
-                        true => now.i.offset,
-                        false => now.i.polynomial,
-                    };
-                    // Half a count off at most, a half upwards, and as far as a command reaches.
-                    let over = next.q.command * count - (now.q.origin + from);
-                    let over = (over + count / 2).rem_euclid(1 << self.widths.point) - count / 2;
-                    let right = -count / 2 < over && over <= count / 2;
-                    require(right || !now.i.present, ["command"], || {
-                        format!("{over} guard units above the point")
-                    })
-                },
-            )
-            .step("the command changes only with present", |now, next| {
-                let held = next.q.command == now.q.command;
-                require(held || now.i.present, ["command"], || "changes".into())
-            })
-            .step(
-                "origin loads its own word of a record and no others",
-                |now, next| {
-                    let record = &now.i.record;
-                    let own = record.load && record.word == self.origin_word();
-                    let unused = 64 - self.widths.point;
-                    let expected = match own {
-                        true => ((record.data << unused) as i64) >> unused,
-                        false => now.q.origin,
-                    };
-                    require(next.q.origin == expected, ["origin"], || {
-                        format!("not {expected:?}")
-                    })
-                },
-            )
-    }
-
     /// A word that is not its own does not differ from another such.
     fn applies(&self, i: &In<Value>) -> bool {
         i.record.is_among(&[0, self.origin_word()])

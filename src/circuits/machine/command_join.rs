@@ -74,23 +74,17 @@ impl Circuit for CommandJoin {
         let holds = self.line >= self.arc;
         (!holds).then(|| "the sum is as wide as the lines' way".into())
     }
-}
 
-impl Specified for CommandJoin {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let unused = 64 - self.line;
-        Invariants::<Self>::new().step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let x = i.take.mux(i.line_x + i.arc_x.resize(self.line), q.x);
+        let y = i.take.mux(i.line_y + i.arc_y.resize(self.line), q.y);
+        vec![Property::step(
             "take loads the sums of line and arc into the commands, which otherwise stay",
-            move |now, next| {
-                let i = &now.i;
-                let sum = |line: i64, arc: i64| (line + arc) << unused >> unused;
-                let due = match i.take {
-                    true => [sum(i.line_x, i.arc_x), sum(i.line_y, i.arc_y)],
-                    false => [now.q.x, now.q.y],
-                };
-                let right = [next.q.x, next.q.y] == due;
-                require(right, ["x", "y", "take"], || format!("not {due:?}"))
-            },
-        )
+            &["x", "y", "take"],
+            next.x.equals(x) & next.y.equals(y),
+        )]
     }
 }
+
+impl Specified for CommandJoin {}

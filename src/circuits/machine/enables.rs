@@ -97,43 +97,34 @@ impl Circuit for Enables {
         };
         (net, Nothing)
     }
-}
 
-impl Specified for Enables {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (w, p, next) = (&now.w, &now.p, &now.next.p);
+        let counters = [
+            (&p.unit_counter, w.unit, &next.unit_counter),
+            (&p.scan_counter, w.scan, &next.scan_counter),
+            (&p.ck_counter, w.ck, &next.ck_counter),
+            (&p.sample_counter, w.sample, &next.sample_counter),
+        ];
+        let counts = counters.map(|(now, enable, next)| {
+            let (now, next) = (now.q.count, next.q.count);
+            enable.mux(next.is_zero(), next.equals(now + 1) & now.below(next))
+        });
+        let never = u64::MAX.cut(self.width);
+        let led = |enable: Bit, period: U| enable.mux(period.is_zero(), period.equals(never));
+        vec![
+            Property::step(
                 "each counter restarts at 0 after its own enable, and otherwise counts up",
-                |now, next| {
-                    let (p, w) = (&now.p, &now.w);
-                    let counters = [
-                        (&p.unit_counter, w.unit, &next.p.unit_counter),
-                        (&p.scan_counter, w.scan, &next.p.scan_counter),
-                        (&p.ck_counter, w.ck, &next.p.ck_counter),
-                        (&p.sample_counter, w.sample, &next.p.sample_counter),
-                    ];
-                    let right = counters.iter().all(|(now, enable, next)| {
-                        let due = match enable {
-                            true => 0,
-                            false => now.q.count + 1,
-                        };
-                        next.q.count == due
-                    });
-                    require(right, ["unit", "scan", "ck", "sample"], || {
-                        "another count".into()
-                    })
-                },
-            )
-            .always(
+                &["unit", "scan", "ck", "sample"],
+                Bit::all(counts),
+            ),
+            Property::always(
                 "ck_led is 0 with ck and all ones without, and sample_led likewise with sample",
-                |now| {
-                    let led = [(now.w.ck, now.w.ck_led), (now.w.sample, now.w.sample_led)];
-                    let never = (1 << self.width) - 1;
-                    let right = led
-                        .iter()
-                        .all(|&(enable, period)| period == if enable { 0 } else { never });
-                    require(right, ["ck_led", "sample_led"], || "not led".into())
-                },
-            )
+                &["ck_led", "sample_led"],
+                led(w.ck, w.ck_led) & led(w.sample, w.sample_led),
+            ),
+        ]
     }
 }
+
+impl Specified for Enables {}

@@ -121,96 +121,72 @@ impl Circuit for AddressSequencer {
         };
         (net, next)
     }
-}
 
-impl Specified for AddressSequencer {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        let running = |q: &Reg<Value>| q.state == 1;
-        let ends = |q: &Reg<Value>| q.address == q.last;
-        let taken = |i: &In<Value>, w: &Net<Value>| i.unit_rst && w.take;
-        Invariants::<Self>::new()
-            .step("state and address change only at RST", |now, next| {
-                let kept = next.q.state == now.q.state && next.q.address == now.q.address;
-                require(now.i.unit_rst || kept, ["state", "address"], || {
-                    "changed in mid-unit".into()
-                })
-            })
-            .always(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let (running, runs) = (q.state.bit(0), next.state.bit(0));
+        let at_last = q.address.equals(q.last);
+        let taken = i.unit_rst & w.take;
+        let left = i.unit_rst & !w.take;
+        let stays = next.address.equals(q.address);
+        let due = i.unit_rst & i.pending & (i.pending_now | !running | at_last);
+        let pattern = Bit::all([
+            runs,
+            next.address.equals(i.pending_base),
+            next.base.equals(i.pending_base),
+            next.last.equals(i.pending_last),
+            next.cyclic.equals(i.pending_cyclic),
+        ]);
+        let restarts = runs & next.address.equals(q.base);
+        let reads = runs & next.address.equals(w.next_address);
+        vec![
+            Property::step(
+                "state and address change only at RST",
+                &["state", "address"],
+                i.unit_rst | (next.state.equals(q.state) & stays),
+            ),
+            Property::always(
                 "a command is taken at RST if pending_now is high, in IDLE, or at the last address",
-                move |now| {
-                    let end = !running(now.q) || ends(now.q);
-                    let due = now.i.unit_rst && now.i.pending && (now.i.pending_now || end);
-                    require(due == now.w.take, ["take"], || {
-                        format!("take is {}", now.w.take)
-                    })
-                },
-            )
-            .step(
+                &["take"],
+                w.take.equals(due),
+            ),
+            Property::step(
                 "a command with pending_run starts its pattern at pending_base",
-                move |now, next| {
-                    let begins = taken(now.i, now.w) && now.i.pending_run;
-                    let there = running(&next.q)
-                        && next.q.address == now.i.pending_base
-                        && next.q.base == now.i.pending_base
-                        && next.q.last == now.i.pending_last
-                        && next.q.cyclic == now.i.pending_cyclic;
-                    require(
-                        !begins || there,
-                        ["address", "base", "last", "cyclic"],
-                        || "another pattern".into(),
-                    )
-                },
-            )
-            .step(
+                &["address", "base", "last", "cyclic"],
+                (taken & i.pending_run).implies(pattern),
+            ),
+            Property::step(
                 "a command without pending_run stops the pattern and holds the address",
-                move |now, next| {
-                    let stop = taken(now.i, now.w) && !now.i.pending_run;
-                    let held = !running(&next.q) && next.q.address == now.q.address;
-                    require(!stop || held, ["state", "address"], || "goes on".into())
-                },
-            )
-            .step(
+                &["state", "address"],
+                (taken & !i.pending_run).implies(!runs & stays),
+            ),
+            Property::step(
                 "without a command, a running pattern advances by one address per RST",
-                move |now, next| {
-                    let on =
-                        now.i.unit_rst && !taken(now.i, now.w) && running(now.q) && !ends(now.q);
-                    let up = (now.q.address + 1) % (1 << self.width);
-                    let right = running(&next.q) && next.q.address == up;
-                    require(!on || right, ["address"], || next.q.address.to_string())
-                },
-            )
-            .step(
+                &["address"],
+                (left & running & !at_last).implies(runs & next.address.equals(q.address + 1)),
+            ),
+            Property::step(
                 "after the last address, a cyclic pattern restarts and any other stops there",
-                move |now, next| {
-                    let end = now.i.unit_rst && !taken(now.i, now.w) && running(now.q);
-                    let good = match now.q.cyclic {
-                        true => running(&next.q) && next.q.address == now.q.base,
-                        false => !running(&next.q) && next.q.address == now.q.address,
-                    };
-                    require(!(end && ends(now.q)) || good, ["state", "address"], || {
-                        next.q.address.to_string()
-                    })
-                },
-            )
-            .step(
+                &["state", "address"],
+                (left & running & at_last).implies(q.cyclic.mux(restarts, !runs & stays)),
+            ),
+            Property::step(
                 "in IDLE, state and address stay until a command is taken",
-                move |now, next| {
-                    let idle = now.i.unit_rst && !taken(now.i, now.w) && !running(now.q);
-                    let held = !running(&next.q) && next.q.address == now.q.address;
-                    require(!idle || held, ["state", "address"], || "moves".into())
-                },
-            )
-            .step(
+                &["state", "address"],
+                (left & !running).implies(!runs & stays),
+            ),
+            Property::step(
                 "RST reads the next address if a pattern runs next, and otherwise blanks",
-                move |now, next| {
-                    let (read, blank) = (now.w.read, now.w.blank);
-                    let one = (read ^ blank) == now.i.unit_rst && !(read && blank);
-                    let right = !read || running(&next.q) && next.q.address == now.w.next_address;
-                    let right = right && (!blank || !running(&next.q));
-                    require(one && right, ["read", "blank", "next_address"], || {
-                        "not in step".into()
-                    })
-                },
-            )
+                &["read", "blank", "next_address"],
+                Bit::all([
+                    (w.read | w.blank).equals(i.unit_rst),
+                    !(w.read & w.blank),
+                    w.read.implies(reads),
+                    w.blank.implies(!runs),
+                ]),
+            ),
+        ]
     }
 }
+
+impl Specified for AddressSequencer {}

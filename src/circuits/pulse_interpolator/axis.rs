@@ -85,30 +85,31 @@ impl Circuit for Axis {
         };
         (net, Nothing)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, p, next) = (&now.i, &now.p, &now.next.p);
+        let (toggle, step) = (p.generator.q.toggle, p.sync.q.step);
+        vec![
+            Property::step(
+                "step is low in the tick after RST",
+                &["sync.step", "unit_rst"],
+                i.unit_rst.implies(!next.sync.q.step),
+            ),
+            Property::step(
+                "dir changes only after a tick with read",
+                &["dir", "read"],
+                i.read | next.memory.q.direction.equals(p.memory.q.direction),
+            ),
+            Property::always(
+                "generator.toggle equals sync.step",
+                &["generator.toggle", "sync.step"],
+                toggle.equals(step),
+            ),
+        ]
+    }
 }
 
 impl Specified for Axis {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step("step is low in the tick after RST", |now, next| {
-                let low = !now.i.unit_rst || !next.p.sync.q.step;
-                require(low, ["sync.step", "unit_rst"], || "high across RST".into())
-            })
-            .step("dir changes only after a tick with read", |now, next| {
-                let kept = next.p.memory.q.direction == now.registers.p.memory.q.direction;
-                require(kept || now.i.read, ["dir", "read"], || {
-                    "changed by itself".into()
-                })
-            })
-            .always("generator.toggle equals sync.step", |now| {
-                let p = &now.registers.p;
-                let same = p.generator.q.toggle == p.sync.q.step;
-                require(same, ["generator.toggle", "sync.step"], || {
-                    "they differ".into()
-                })
-            })
-    }
-
     /// A word is read or blanked at RST only, as the address sequencer does it; the write port's
     /// words without a write do not matter, nor does the number of another axis.
     fn applies(&self, i: &In<Value>) -> bool {

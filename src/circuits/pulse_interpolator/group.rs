@@ -209,57 +209,47 @@ impl Circuit for Group {
         };
         (net, Nothing)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (w, p, next) = (&now.w, &now.p, &now.next.p);
+        let axes = || p.axes.iter();
+        let words = axes().zip(&next.axes).map(|(now, next)| {
+            let (now, next) = (&now.p.memory.q, &next.p.memory.q);
+            next.half_period.equals(now.half_period) & next.direction.equals(now.direction)
+        });
+        let kept = [
+            next.unit_time.q.active.equals(p.unit_time.q.active),
+            next.sequencer.q.address.equals(p.sequencer.q.address),
+            next.sequencer.q.state.equals(p.sequencer.q.state),
+        ];
+        let elapsed = p.counter.q.count;
+        let timed = axes().map(|axis| {
+            let half_period = axis.p.memory.q.half_period;
+            pulse_generator::is_at(&axis.p.generator.q, half_period, elapsed)
+                & axis.p.sync.q.step.equals(axis.p.generator.q.toggle)
+        });
+        let quiet = axes().map(|axis| axis.p.memory.q.half_period.is_zero() & !axis.p.sync.q.step);
+        vec![
+            Property::step(
+                "unit time, address, state and memory outputs change only at RST",
+                &["unit_time.active", "sequencer.address", "sequencer.state"],
+                w.unit_rst | Bit::all(words.chain(kept)),
+            ),
+            Property::always(
+                "each axis depends only on its half-period and the ticks since RST",
+                &["counter.count", "step_x"],
+                Bit::all(timed),
+            ),
+            Property::always(
+                "an idle group outputs no pulses",
+                &["busy", "step_x"],
+                w.busy | Bit::all(quiet),
+            ),
+        ]
+    }
 }
 
 impl Specified for Group {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step(
-                "unit time, address, state and memory outputs change only at RST",
-                |now, next| {
-                    let (p, after) = (&now.registers.p, &next.p);
-                    let words = p.axes.iter().zip(&after.axes).all(|(now, next)| {
-                        let (now, next) = (&now.p.memory.q, &next.p.memory.q);
-                        now.half_period == next.half_period && now.direction == next.direction
-                    });
-                    let kept = after.unit_time.q.active == p.unit_time.q.active
-                        && after.sequencer.q.address == p.sequencer.q.address
-                        && after.sequencer.q.state == p.sequencer.q.state;
-                    let signals = ["unit_time.active", "sequencer.address", "sequencer.state"];
-                    require(kept && words || now.see(|s| s.w.unit_rst), signals, || {
-                        "changed in mid-unit".into()
-                    })
-                },
-            )
-            .always(
-                "each axis depends only on its half-period and the ticks since RST",
-                |now| {
-                    let p = &now.registers.p;
-                    let elapsed = p.counter.q.count;
-                    let right = p.axes.iter().all(|axis| {
-                        let (generator, step) = (&axis.p.generator.q, axis.p.sync.q.step);
-                        let n = axis.p.memory.q.half_period;
-                        let expected = pulse_generator::expected(n, elapsed);
-                        (generator.count, generator.toggle) == expected && step == expected.1
-                    });
-                    require(right, ["counter.count", "step_x"], || {
-                        format!("tick {elapsed} of the unit")
-                    })
-                },
-            )
-            .always("an idle group outputs no pulses", |now| {
-                let quiet = now
-                    .registers
-                    .p
-                    .axes
-                    .iter()
-                    .all(|axis| axis.p.memory.q.half_period == 0 && !axis.p.sync.q.step);
-                require(quiet || now.see(|s| s.w.busy), ["busy", "step_x"], || {
-                    "a pulse".into()
-                })
-            })
-    }
-
     /// The contents of the memories are free, but fixed: the EPROM of the text.
     fn applies(&self, i: &In<Value>) -> bool {
         i.port.is_quiet()

@@ -172,64 +172,50 @@ impl Circuit for PatternMemory {
         };
         (Net { selected, clear }, next)
     }
-}
 
-impl Specified for PatternMemory {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        /// The word at an address, as half-period and direction.
-        fn word(q: &Reg<Value>, address: u64) -> (u64, bool) {
-            let address = address as usize;
-            (q.half_periods[address], q.directions[address] == 1)
-        }
-        /// The word at the output.
-        fn output(q: &Reg<Value>) -> (u64, bool) {
-            (q.half_period, q.direction)
-        }
-        Invariants::<Self>::new()
-            .step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let output = |half_period: U, direction: Bit| {
+            next.half_period.equals(half_period) & next.direction.equals(direction)
+        };
+        let read = output(
+            q.half_periods.read(i.address),
+            q.directions.read(i.address).bit(0),
+        );
+        let blank = next.half_period.is_zero() & next.direction.equals(q.direction);
+        let port = &i.port;
+        let axis = U::parameter("axis", self.axis, 3);
+        let written = port.write & port.write_axis.equals(axis);
+        let words = (0..q.half_periods.len()).map(|at| {
+            let here = written & port.write_address.equals(at as u64);
+            let half_period = here.mux(port.write_half_period, q.half_periods.word(at));
+            let direction = here.mux(port.write_direction.word(), q.directions.word(at));
+            next.half_periods.word(at).equals(half_period)
+                & next.directions.word(at).equals(direction)
+        });
+        vec![
+            Property::step(
                 "a read outputs the word that was stored before the edge",
-                |now, next| {
-                    let read = output(&next.q) == word(now.q, now.i.address);
-                    require(!now.i.read || read, ["half_period", "direction"], || {
-                        "another word".into()
-                    })
-                },
-            )
-            .step(
+                &["half_period", "direction"],
+                i.read.implies(read),
+            ),
+            Property::step(
                 "blank without read sets half_period to 0 and keeps direction",
-                |now, next| {
-                    let blank = now.i.blank && !now.i.read;
-                    let quiet = output(&next.q) == (0, now.q.direction);
-                    require(!blank || quiet, ["half_period", "direction"], || {
-                        "not blank".into()
-                    })
-                },
-            )
-            .step(
+                &["half_period", "direction"],
+                (i.blank & !i.read).implies(blank),
+            ),
+            Property::step(
                 "without read and blank, half_period and direction keep their values",
-                |now, next| {
-                    let held = now.i.read || now.i.blank || output(&next.q) == output(now.q);
-                    require(held, ["half_period", "direction"], || {
-                        "changed by itself".into()
-                    })
-                },
-            )
-            .step(
+                &["half_period", "direction"],
+                i.read | i.blank | output(q.half_period, q.direction),
+            ),
+            Property::step(
                 "only a write to this axis changes a word, and only the word at write_address",
-                |now, next| {
-                    let port = &now.i.port;
-                    let written = port.write && port.write_axis == self.axis;
-                    let good = (0..1 << self.address).all(|address| {
-                        let expected = match written && port.write_address == address {
-                            true => (port.write_half_period, port.write_direction),
-                            false => word(now.q, address),
-                        };
-                        word(&next.q, address) == expected
-                    });
-                    require(good, ["half_periods", "directions"], || {
-                        "another content".into()
-                    })
-                },
-            )
+                &["half_periods", "directions"],
+                Bit::all(words),
+            ),
+        ]
     }
 }
+
+impl Specified for PatternMemory {}

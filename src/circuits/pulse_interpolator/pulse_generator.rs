@@ -17,6 +17,7 @@
 //! `count + 1 == half_period`.
 
 use super::Variant;
+use crate::circuits::division::divided;
 use crate::prelude::*;
 
 /// Pulse generator 20.
@@ -118,13 +119,14 @@ impl Circuit for PulseGenerator {
     }
 }
 
-/// Returns count and toggle `elapsed` ticks into a unit time with that half-period, if RST clears
-/// them.
-pub(super) fn expected(half_period: u64, elapsed: u64) -> (u64, bool) {
-    match half_period {
-        0 => (0, false),
-        n => (elapsed % n, elapsed / n % 2 == 1),
-    }
+/// High if count and toggle are those of `elapsed` ticks into a unit time with that half-period, if
+/// RST clears them.
+pub(super) fn is_at(q: &Reg<Open>, half_period: U, elapsed: U) -> Bit {
+    let (toggles, count) = divided(elapsed, half_period);
+    half_period.is_zero().mux(
+        q.count.is_zero() & !q.toggle,
+        q.count.equals(count) & q.toggle.equals(toggles.bit(0)),
+    )
 }
 
 impl Specified for PulseGenerator {}

@@ -95,70 +95,54 @@ impl Circuit for PulseTrain {
         };
         (net, after)
     }
-}
 
-impl Specified for PulseTrain {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let taken = Bit::all([
+            next.held.equals(i.half_period),
+            next.left.equals(i.pulses),
+            next.count.is_zero(),
+            !next.step,
+        ]);
+        let begins = i.load & !i.pulses.is_zero();
+        let over = !q.held.is_zero() & !q.count.below(q.held - 1);
+        let due = !q.left.is_zero() & over;
+        // A bit more, so that the sum does not wrap.
+        let wide = self.pulses + 1;
+        let fell = (q.step & !next.step).word().resize(wide);
+        vec![
+            Property::step(
                 "load starts the new train and drops the old one",
-                |now, next| {
-                    let (i, q) = (now.i, &next.q);
-                    let taken =
-                        (q.held, q.left, q.count, q.step) == (i.half_period, i.pulses, 0, false);
-                    require(taken || !i.load, ["held", "left", "count", "step"], || {
-                        "something else".into()
-                    })
-                },
-            )
-            .step(
+                &["held", "left", "count", "step"],
+                i.load.implies(taken),
+            ),
+            Property::step(
                 "a load of one or more pulses sets dir to down, and nothing else changes dir",
-                |now, next| {
-                    let begins = now.i.load && now.i.pulses > 0;
-                    let expected = if begins { now.i.down } else { now.q.dir };
-                    require(next.q.dir == expected, ["dir"], || "another".into())
-                },
-            )
-            .step(
+                &["dir"],
+                next.dir.equals(begins.mux(i.down, q.dir)),
+            ),
+            Property::step(
                 "while pulses are left, step toggles at the end of each half-period and only there",
-                |now, next| {
-                    let (q, after) = (now.q, &next.q);
-                    let due = q.left > 0 && q.held > 0 && q.count + 1 >= q.held;
-                    let right = after.step == (q.step ^ due);
-                    require(right || now.i.load, ["step", "count"], || {
-                        format!("{} ticks of {}", q.count + 1, q.held)
-                    })
-                },
-            )
-            .step(
+                &["step", "count"],
+                i.load | next.step.equals(q.step ^ due),
+            ),
+            Property::step(
                 "left decreases by one at the end of each pulse",
-                |now, next| {
-                    let (q, after) = (now.q, &next.q);
-                    let fell = q.step && !after.step;
-                    let right = after.left + u64::from(fell) == q.left;
-                    require(right || now.i.load, ["left", "step"], || {
-                        format!("{} after {}", after.left, q.left)
-                    })
-                },
-            )
-            .step(
+                &["left", "step"],
+                i.load | (next.left.resize(wide) + fell).equals(q.left.resize(wide)),
+            ),
+            Property::step(
                 "spent is high if and only if no pulse is left after this tick",
-                |now, next| {
-                    let right = now.w.spent == (next.q.left == 0);
-                    require(right || now.i.load, ["spent", "left"], || {
-                        "it is wrong".into()
-                    })
-                },
-            )
-            .always(
+                &["spent", "left"],
+                i.load | w.spent.equals(next.left.is_zero()),
+            ),
+            Property::always(
                 "step is low if no pulse is left, and count is 0 or below the half-period",
-                |now| {
-                    let q = now.q;
-                    let counts = q.count == 0 || q.count < q.held;
-                    require(counts && (q.left > 0 || !q.step), ["step", "count"], || {
-                        format!("{} of {}", q.count, q.held)
-                    })
-                },
-            )
+                &["step", "count"],
+                (q.count.is_zero() | q.count.below(q.held)) & !(q.left.is_zero() & q.step),
+            ),
+        ]
     }
 }
+
+impl Specified for PulseTrain {}

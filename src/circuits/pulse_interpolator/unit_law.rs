@@ -10,6 +10,7 @@
 
 use super::{PulseGenerator, SyncStage, Variant, counts, pulse_generator, sync_stage};
 use crate::circuits::blocks::{EnableCounter, enable_counter};
+use crate::circuits::division::divided;
 use crate::prelude::*;
 
 /// Sequence of unit times with arbitrary half-period and T.
@@ -86,12 +87,48 @@ impl Circuit for UnitLaw {
         };
         (Net { counted, step }, next)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (q, w) = (&now.q, &now.w);
+        let (counter, generator) = (&now.p.counter, &now.p.generator.q);
+        let elapsed = counter.q.count;
+        let half_period = q.held_half_period;
+        let none = q.held_period.is_zero();
+        let end = none.mux(0, q.held_period - 1);
+        // The step signal toggles at each multiple of the half-period before the end; every other
+        // toggle is a rising edge.
+        let (toggles, _) = divided(end, half_period);
+        let rises = half_period.is_zero().mux(0, (toggles + 1).shift_right(1));
+        vec![
+            Property::always(
+                "the number of pulses in a unit time obeys the count law",
+                &["step", "counter.enable", "counted"],
+                counter.w.enable.implies(w.counted.equals(rises)),
+            ),
+            Property::always(
+                "step is low in the first tick of a unit time",
+                &["step", "counter.count"],
+                elapsed.is_zero().implies(!w.step),
+            ),
+            Property::always(
+                "count, toggle and step depend only on the half-period and the ticks since RST",
+                &["generator.count", "generator.toggle", "step"],
+                pulse_generator::is_at(generator, half_period, elapsed)
+                    & w.step.equals(generator.toggle),
+            ),
+            Property::always(
+                "a unit time has T ticks",
+                &["counter.count", "counter.enable"],
+                counter.w.enable.equals(elapsed.equals(end)),
+            ),
+        ]
+    }
 }
 
 impl UnitLaw {
     /// The count law alone, which the literal variant violates with valid data.
     pub fn count_law(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new().always(
+        Invariants::of(self).always(
             "the number of pulses in a unit time obeys the count law",
             |now| {
                 let (n, period) = (now.q.held_half_period, now.q.held_period.max(1));
@@ -106,35 +143,4 @@ impl UnitLaw {
     }
 }
 
-impl Specified for UnitLaw {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        self.count_law()
-            .always("step is low in the first tick of a unit time", |now| {
-                let low = now.p.counter.q.count != 0 || !now.w.step;
-                require(low, ["step", "counter.count"], || "high across RST".into())
-            })
-            .always(
-                "count, toggle and step depend only on the half-period and the ticks since RST",
-                |now| {
-                    let (elapsed, n) = (now.p.counter.q.count, now.q.held_half_period);
-                    let generator = &now.p.generator.q;
-                    let expected = pulse_generator::expected(n, elapsed);
-                    let same =
-                        (generator.count, generator.toggle) == expected && now.w.step == expected.1;
-                    require(
-                        same,
-                        ["generator.count", "generator.toggle", "step"],
-                        || format!("tick {elapsed} of a unit time with n = {n}"),
-                    )
-                },
-            )
-            .always("a unit time has T ticks", |now| {
-                let last = now.p.counter.q.count + 1 == now.q.held_period.max(1);
-                require(
-                    last == now.p.counter.w.enable,
-                    ["counter.count", "counter.enable"],
-                    || "RST at another tick".into(),
-                )
-            })
-    }
-}
+impl Specified for UnitLaw {}

@@ -68,41 +68,33 @@ impl Circuit for UnitTimeRegister {
         };
         (Net { load }, next)
     }
-}
 
-impl Specified for UnitTimeRegister {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step("the active unit time changes only at RST", |now, next| {
-                let kept = now.i.unit_rst || next.q.active == now.q.active;
-                require(kept, ["active", "unit_rst"], || {
-                    "changed in mid-unit".into()
-                })
-            })
-            .step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let due = i.take.mux(i.take_period, q.shadow);
+        vec![
+            Property::step(
+                "the active unit time changes only at RST",
+                &["active", "unit_rst"],
+                i.unit_rst | next.active.equals(q.active),
+            ),
+            Property::step(
                 "RST loads take_period if take is high, otherwise shadow",
-                |now, next| {
-                    let due = match now.i.take {
-                        true => now.i.take_period,
-                        false => now.q.shadow,
-                    };
-                    let loaded = !now.i.unit_rst || next.q.active == due;
-                    require(loaded, ["active", "shadow"], || {
-                        format!("{}, not {due}", next.q.active)
-                    })
-                },
-            )
-            .step("a write puts period into shadow", |now, next| {
-                let waits = !now.i.write || next.q.shadow == now.i.period;
-                require(waits, ["shadow", "period"], || "a write is lost".into())
-            })
-            .step(
+                &["active", "shadow"],
+                i.unit_rst.implies(next.active.equals(due)),
+            ),
+            Property::step(
+                "a write puts period into shadow",
+                &["shadow", "period"],
+                i.write.implies(next.shadow.equals(i.period)),
+            ),
+            Property::step(
                 "without write and take, shadow keeps its value",
-                |now, next| {
-                    let idle = !now.i.write && !now.i.take;
-                    let kept = !idle || next.q.shadow == now.q.shadow;
-                    require(kept, ["shadow"], || "changed by itself".into())
-                },
-            )
+                &["shadow"],
+                i.write | i.take | next.shadow.equals(q.shadow),
+            ),
+        ]
     }
 }
+
+impl Specified for UnitTimeRegister {}

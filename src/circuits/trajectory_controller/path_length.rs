@@ -76,47 +76,33 @@ impl Circuit for PathLength {
         };
         (Net { none }, next)
     }
-}
 
-impl Specified for PathLength {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let taken = i.present & !i.restart;
+        let waits = i.restart | (q.waiting & !i.present);
+        vec![
+            Property::step(
                 "the length is the profile's latest, except one in the tick of restart",
-                |now, next| {
-                    let expected = match now.i.present && !now.i.restart {
-                        true => now.i.profile,
-                        false => now.q.length,
-                    };
-                    let right = next.q.length == expected;
-                    require(right, ["length"], || format!("not {expected:?}"))
-                },
-            )
-            .step(
+                &["length"],
+                next.length.equals(taken.mux(i.profile, q.length)),
+            ),
+            Property::step(
                 "after power-on or restart, a path begins with the first length",
-                |now, next| {
-                    let without = now.q.waiting;
-                    let (waits, first) = match (now.i.restart, now.i.present) {
-                        (true, _) => (true, false),
-                        (false, true) => (false, without),
-                        (false, false) => (without, false),
-                    };
-                    let right = next.q.waiting == waits && next.q.preset == first;
-                    require(right, ["waiting", "preset"], || {
-                        format!("not {waits}, {first}")
-                    })
-                },
-            )
-            .step(
+                &["waiting", "preset"],
+                next.waiting.equals(waits) & next.preset.equals(taken & q.waiting),
+            ),
+            Property::step(
                 "two ticks after a period begins, fresh is high if there is a path, otherwise held",
-                |now, next| {
-                    let due = match now.q.begun {
-                        true => [!next.q.waiting, next.q.waiting],
-                        false => [false; 2],
-                    };
-                    let right = [next.q.fresh, next.q.held] == due && next.q.begun == now.i.sample;
-                    require(right, ["fresh", "held", "begun"], || format!("not {due:?}"))
-                },
-            )
+                &["fresh", "held", "begun"],
+                Bit::all([
+                    next.fresh.equals(q.begun & !next.waiting),
+                    next.held.equals(q.begun & next.waiting),
+                    next.begun.equals(i.sample),
+                ]),
+            ),
+        ]
     }
 }
+
+impl Specified for PathLength {}

@@ -117,86 +117,54 @@ impl Circuit for PeriodJoin {
         };
         (net, next)
     }
-}
 
-impl Specified for PeriodJoin {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let begins = i.begins | i.held;
+        let (at_once, later): (Bit, Bit) = ((self.wait == 0).into(), (self.wait > 0).into());
+        let left = (q.refers & !i.referred) | (q.answers & !i.answered);
+        let over = !q.count.below(self.wait);
+        let correct = begins.mux(i.held & at_once, q.pending & !left & over);
+        let waits = i.begins | (i.held & later) | (q.pending & (left | !over));
+        let count = begins.mux(0, over.mux(U::new(self.wait, 10), q.count + 1));
+        vec![
+            Property::step(
                 "correct comes once a period, after reference, responses and the wait",
-                |now, next| {
-                    let (q, i) = (&now.q, &now.i);
-                    let left = (q.refers && !i.referred) || (q.answers && !i.answered);
-                    let over = q.count >= self.wait;
-                    let due = match (i.begins || i.held, self.wait) {
-                        (true, 0) => i.held,
-                        (true, _) => false,
-                        (false, _) => q.pending && !left && over,
-                    };
-                    let waits = match (i.begins, i.held && self.wait > 0) {
-                        (false, false) => q.pending && (left || !over),
-                        _ => true,
-                    };
-                    let right = next.q.correct == due && next.q.pending == waits;
-                    require(right, ["correct", "pending"], || {
-                        format!("not {due}, {waits}")
-                    })
-                },
-            )
-            .step(
+                &["correct", "pending"],
+                next.correct.equals(correct) & next.pending.equals(waits),
+            ),
+            Property::step(
                 "the count is the number of ticks since the period began, up to the wait",
-                |now, next| {
-                    let due = match now.i.begins || now.i.held {
-                        true => 0,
-                        false => (now.q.count + 1).min(self.wait),
-                    };
-                    require(next.q.count == due, ["count"], || format!("not {due}"))
-                },
-            )
-            .step(
+                &["count"],
+                next.count.equals(count),
+            ),
+            Property::step(
                 "from the beginning of a period, reference and responses are awaited",
-                |now, next| {
-                    let right = next.q.refers && next.q.answers && next.q.busy;
-                    require(
-                        right || !now.i.begins,
-                        ["refers", "answers", "busy"],
-                        || "not awaited".into(),
-                    )
-                },
-            )
-            .step(
+                &["refers", "answers", "busy"],
+                i.begins.implies(next.refers & next.answers & next.busy),
+            ),
+            Property::step(
                 "the first point of a path presets the responses, and every point advances them",
-                |now, next| {
-                    let due = [now.i.placed && now.q.first, now.i.placed];
-                    let seen = [next.q.preset, next.q.step];
-                    require(due == seen, ["preset", "step"], || format!("not {due:?}"))
-                },
-            )
-            .step(
+                &["preset", "step"],
+                next.preset.equals(i.placed & q.first) & next.step.equals(i.placed),
+            ),
+            Property::step(
                 "after power-on and after clear, the first point is awaited",
-                |now, next| {
-                    let due = match (now.i.clear, now.i.placed) {
-                        (true, _) => true,
-                        (false, placed) => !placed && now.q.first,
-                    };
-                    require(next.q.first == due, ["first"], || format!("not {due}"))
-                },
-            )
-            .step(
+                &["first"],
+                next.first.equals(i.clear | (!i.placed & q.first)),
+            ),
+            Property::step(
                 "a period is busy from its beginning until its torques are valid",
-                |now, next| {
-                    let begins = now.i.begins || now.i.held;
-                    let due = begins || (now.q.busy && !now.i.driven);
-                    require(next.q.busy == due, ["busy"], || format!("not {due}"))
-                },
-            )
-            .step(
+                &["busy"],
+                next.busy.equals(begins | (q.busy & !i.driven)),
+            ),
+            Property::step(
                 "late is set if a period begins before the previous one is complete",
-                |now, next| {
-                    let clashes = (now.i.begins || now.i.held) && now.q.busy;
-                    let due = clashes || (now.q.late && !now.i.clear);
-                    require(next.q.late == due, ["late"], || format!("not {due}"))
-                },
-            )
+                &["late"],
+                next.late.equals((begins & q.busy) | (q.late & !i.clear)),
+            ),
+        ]
     }
 }
+
+impl Specified for PeriodJoin {}

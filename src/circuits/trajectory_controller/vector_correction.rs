@@ -101,31 +101,25 @@ impl Circuit for VectorCorrection {
         };
         (Net { vector }, next)
     }
-}
 
-impl Specified for VectorCorrection {
-    fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new().step(
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, next) = (&now.i, &now.q, &now.next.q);
+        let (vector, corrected) = match self.correction {
+            Correction::Vector => (i.target - i.response, i.command + i.target - i.response),
+            Correction::None => (I::new(0, self.width), i.command),
+            Correction::Steady => (i.target - i.command, i.target),
+            Correction::Feedback => (i.target, i.target + i.command),
+        };
+        vec![Property::step(
             "corrected command minus command equals reference minus response",
-            |now, next| {
-                let (i, end) = (&now.i, 1i64 << self.width);
-                let expected = match (i.correct, self.correction) {
-                    (false, _) => [now.q.correction, now.q.corrected],
-                    (true, Correction::None) => [0, i.command],
-                    (true, Correction::Vector) => {
-                        let vector = i.target - i.response;
-                        [vector, i.command + vector]
-                    }
-                    (true, Correction::Steady) => [i.target - i.command, i.target],
-                    (true, Correction::Feedback) => [i.target, i.target + i.command],
-                };
-                let seen = [next.q.correction, next.q.corrected];
-                let same = (0..2).all(|k| (seen[k] - expected[k]).rem_euclid(end) == 0);
-                let right = same && next.q.fresh == i.correct;
-                require(right, ["correction", "corrected", "fresh"], || {
-                    format!("not {expected:?}")
-                })
-            },
-        )
+            &["correction", "corrected", "fresh"],
+            Bit::all([
+                next.correction.equals(i.correct.mux(vector, q.correction)),
+                next.corrected.equals(i.correct.mux(corrected, q.corrected)),
+                next.fresh.equals(i.correct),
+            ]),
+        )]
     }
 }
+
+impl Specified for VectorCorrection {}
