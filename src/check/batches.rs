@@ -6,6 +6,9 @@ use super::searching::{Ended, Next, One, Searching};
 use crate::engine::sliced::{Tick, Ticks, Turned, WORDS};
 use std::ops::Range;
 
+/// Number of batches between looks at the time.
+const LOOK_EVERY: u64 = 256;
+
 /// 64 transitions, or fewer: of one state with inputs of a block, or of several states with all
 /// inputs.
 struct Word {
@@ -80,7 +83,12 @@ impl<'s> Batches<'s> {
     pub(super) fn search(&mut self, mut search: Search<'_>, one: &mut One<'_>) -> Ended {
         // Next state and block.
         let (mut at, mut block) = (0, 0);
+        let mut batches = 0_u64;
         while self.run(&search, (&mut at, &mut block), usize::MAX) {
+            batches += 1;
+            if batches.is_multiple_of(LOOK_EVERY) && search.is_late() {
+                return Ended::Limit(search.progress());
+            }
             for word in 0..self.words.len() {
                 for state in 0..self.words[word].states {
                     if let Some(ended) = self.look(&mut search, one, word, state) {

@@ -1,6 +1,6 @@
 use super::counterexample::Violation;
 use super::enumerate::scramble;
-use super::search::Report;
+use super::search::{Limits, Report};
 use super::searching::{Ended, Judge, Next, Searching};
 use super::visited::Visited;
 use super::{CheckError, Fault, TooWide};
@@ -16,6 +16,7 @@ use crate::sim::{
 };
 use std::cell::RefCell;
 use std::fmt;
+use std::time::Instant;
 
 /// Greatest width of the inputs in bits: all their values are tried in every state.
 const INPUT_BITS: usize = 20;
@@ -95,7 +96,7 @@ impl<C: Circuit> fmt::Display for Outcome<C> {
             Outcome::Counterexample(found) => found.fmt(f),
             Outcome::Limit(progress) => write!(
                 f,
-                "not decided: the limit of {} states was reached at depth {}, after {} transitions",
+                "not decided: the limit was reached with {} states, at depth {}, after {} transitions",
                 progress.states, progress.depth, progress.transitions
             ),
         }
@@ -119,8 +120,7 @@ pub struct Reach<'a, C: Circuit> {
     only: Option<Box<Only<'a, C>>>,
     assume: Vec<Box<Assume<'a, C>>>,
     progress: Option<Box<Report<'a>>>,
-    limit: u32,
-    transitions: u64,
+    limits: Limits,
     model: Option<Elaborated>,
     bitmap_bits: usize,
 }
@@ -182,8 +182,11 @@ impl<'a, C: Circuit> Reach<'a, C> {
             only: None,
             assume: Vec::new(),
             progress: None,
-            limit: 1 << 26,
-            transitions: u64::MAX,
+            limits: Limits {
+                states: 1 << 26,
+                transitions: u64::MAX,
+                until: None,
+            },
             model: None,
             bitmap_bits: 32,
         }
@@ -206,13 +209,19 @@ impl<'a, C: Circuit> Reach<'a, C> {
     /// takes as many bytes as its bits fill, 1 to 8, and another 16 if the visited set is not a
     /// bitmap.
     pub fn limit(mut self, states: u32) -> Self {
-        self.limit = states;
+        self.limits.states = states;
         self
     }
 
     /// Ends the search undecided after this number of transitions; unlimited by default.
     pub fn transitions(mut self, transitions: u64) -> Self {
-        self.transitions = transitions;
+        self.limits.transitions = transitions;
+        self
+    }
+
+    /// Ends the search undecided at this time; by default it has all the time there is.
+    pub fn until(mut self, time: Instant) -> Self {
+        self.limits.until = Some(time);
         self
     }
 
@@ -297,7 +306,7 @@ impl<'a, C: Circuit> Reach<'a, C> {
             others: self.invariants.all().has_others(),
         };
         let visited = Visited::new(bits, self.bitmap_bits);
-        let limits = (self.limit, self.transitions);
+        let limits = self.limits;
         Ok(
             match searching.run(&model, visited, (limits, progress), simulated) {
                 Ended::Unknown(signals) => return Err(CheckError::Signals(signals)),
@@ -406,7 +415,7 @@ impl<C: Circuit> fmt::Debug for Reach<'_, C> {
         f.debug_struct("Reach")
             .field("circuit", &C::NAME)
             .field("invariants", self.invariants.all())
-            .field("limit", &self.limit)
+            .field("limits", &self.limits)
             .field("bitmap_bits", &self.bitmap_bits)
             .finish_non_exhaustive()
     }

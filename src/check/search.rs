@@ -4,20 +4,26 @@ use super::states::States;
 use super::visited::Visited;
 use super::{Progress, Proof};
 use std::ops::Range;
+use std::time::Instant;
 
 /// Number of states between reports of progress; each depth is reported too.
 const REPORT_EVERY: usize = 1 << 16;
 
 pub(crate) type Report<'a> = dyn FnMut(&Progress) + 'a;
 
+/// Limits of a search.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Limits {
+    pub states: u32,
+    pub transitions: u64,
+    pub until: Option<Instant>,
+}
+
 /// States found, ordered by distance from power-on.
 pub(crate) struct Search<'a> {
     visited: Visited,
     states: States,
-    /// Greatest number of states.
-    limit: usize,
-    /// Greatest number of transitions.
-    most: u64,
+    limits: Limits,
     report: Option<Box<Report<'a>>>,
     /// Index of the current state.
     at: usize,
@@ -34,7 +40,7 @@ impl<'a> Search<'a> {
     pub(crate) fn new(
         (bits, power_on): (usize, u64),
         mut visited: Visited,
-        (limit, most): (u32, u64),
+        limits: Limits,
         report: Option<Box<Report<'a>>>,
     ) -> Self {
         visited.insert(power_on);
@@ -43,8 +49,7 @@ impl<'a> Search<'a> {
         let mut search = Search {
             visited,
             states,
-            limit: limit as usize,
-            most,
+            limits,
             report,
             at: 0,
             depths: vec![0, 1],
@@ -88,6 +93,13 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// True if the time is over.
+    pub(crate) fn is_late(&self) -> bool {
+        self.limits
+            .until
+            .is_some_and(|until| Instant::now() >= until)
+    }
+
     fn tell(&mut self, deeper: bool) {
         let progress = self.progress();
         if (deeper || self.at.is_multiple_of(REPORT_EVERY))
@@ -99,17 +111,18 @@ impl<'a> Search<'a> {
 
     /// True if so many more transitions and states are within the limits.
     pub(crate) fn has_room(&self, more: u32) -> bool {
-        self.transitions + u64::from(more) <= self.most && self.len() + more as usize <= self.limit
+        self.transitions + u64::from(more) <= self.limits.transitions
+            && self.len() + more as usize <= self.limits.states as usize
     }
 
     /// Adds a successor of the current state; returns false if there is no room for it.
     #[inline]
     pub(crate) fn found(&mut self, state: u64) -> bool {
-        if self.transitions > self.most {
+        if self.transitions > self.limits.transitions {
             return false;
         }
         if self.visited.insert(state) {
-            if self.len() >= self.limit {
+            if self.len() >= self.limits.states as usize {
                 return false;
             }
             self.states.push(state);

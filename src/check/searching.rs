@@ -4,7 +4,7 @@ use super::Fault;
 use super::batches::Batches;
 use super::blamed::{self, UnknownSignal};
 use super::reach::{Progress, Proof};
-use super::search::{Report, Search};
+use super::search::{Limits, Report, Search};
 use super::visited::Visited;
 use crate::engine::sliced::Tick;
 use crate::engine::{Engine, Watch};
@@ -59,7 +59,7 @@ impl Searching<'_> {
         &self,
         model: &Elaborated,
         visited: Visited,
-        (limits, progress): ((u32, u64), Option<Box<Report<'_>>>),
+        (limits, progress): (Limits, Option<Box<Report<'_>>>),
         simulated: bool,
     ) -> Ended {
         let states = Packing::of(model);
@@ -112,6 +112,9 @@ impl Searching<'_> {
         let mut at = 0;
         while let Some(state) = search.nth(at) {
             search.proceed(at);
+            if search.is_late() {
+                return Ended::Limit(search.progress());
+            }
             one.states.unpack(state, &mut one.engine);
             for index in 0..self.ports.len() {
                 if !self.tick(state, index, one, &mut after) {

@@ -5,7 +5,7 @@ use super::node::{Id, Node};
 use super::signal::{BIT, Shape};
 
 /// The most nodes of a statement that Verilog has.
-const LONGEST: usize = 1000;
+const LONGEST: usize = 120;
 
 impl Module {
     /// Returns the nodes that drive nets, registers, memories and inputs of instances.

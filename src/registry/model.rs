@@ -12,7 +12,7 @@ use crate::trace::{Clock, Layout, LayoutError};
 use crate::verilog::{Connections, Verilog};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A circuit, its type forgotten.
 pub trait AnyModel: Send + Sync {
@@ -135,6 +135,8 @@ pub struct ProofSearch<'a> {
     pub states: u32,
     /// Transitions after which it is given up.
     pub transitions: u64,
+    /// Time at which it is given up.
+    pub until: Option<Instant>,
     /// Directory for a counterexample as VCD and save file.
     pub waves: Option<&'a Path>,
     /// A netlist of the circuit to take in place of its own.
@@ -146,6 +148,7 @@ impl Default for ProofSearch<'_> {
         ProofSearch {
             states: 1 << 26,
             transitions: u64::MAX,
+            until: None,
             waves: None,
             model: None,
         }
@@ -184,6 +187,9 @@ impl<C: Specified> AnyCircuit for C {
             .limit(search.states)
             .transitions(search.transitions)
             .progress(progress);
+        if let Some(until) = search.until {
+            reach = reach.until(until);
+        }
         if let Some(model) = &search.model {
             reach = reach.model(model.clone());
         }

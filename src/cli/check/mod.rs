@@ -1,5 +1,6 @@
 //! `check`: proofs and sweeps, in one table.
 
+mod climb;
 mod full;
 mod parts;
 mod report;
@@ -16,6 +17,7 @@ use report::Asked;
 pub use report::Report;
 use shard::Shard;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]
@@ -28,6 +30,17 @@ pub struct Arguments {
     /// States after which a proof is given up.
     #[arg(long, value_name = "STATES", allow_negative_numbers = true, default_value_t = 1 << 26)]
     limit: u32,
+    /// Proves each circuit at all widths, from 1 up, until it has taken SECONDS (10 by default).
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "10",
+        value_parser = climb::seconds,
+        conflicts_with_all = ["shard", "width", "full"]
+    )]
+    all_widths: Option<Duration>,
     /// Proves each property at the circuit's own widths, by induction and a search for invariants.
     #[arg(long, conflicts_with_all = ["limit", "shard"])]
     full: bool,
@@ -45,7 +58,7 @@ pub struct Arguments {
         long,
         value_name = "FILES",
         num_args = 1..,
-        conflicts_with_all = ["circuits", "set", "width", "limit", "out", "shard", "full"]
+        conflicts_with_all = ["circuits", "set", "width", "limit", "all_widths", "out", "shard", "full"]
     )]
     merge: Vec<PathBuf>,
     /// Prints the table as JSON.
@@ -73,10 +86,14 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
             circuits: arguments.circuits.clone(),
             changes: arguments.changes.clone(),
             limit: arguments.limit,
+            seconds: arguments.all_widths.map(|limit| limit.as_secs_f64()),
         };
         let (tasks, others) = tasks::of(&asked)?;
         let shard = arguments.shard.unwrap_or_default();
-        let rows = work::run(&tasks, shard, arguments.limit, &arguments.out)?;
+        let rows = match arguments.all_widths {
+            None => work::run(&tasks, shard, arguments.limit, &arguments.out)?,
+            Some(time) => climb::run(&tasks, (arguments.limit, time), &arguments.out)?,
+        };
         Report::new(asked, shard, rows, others)
     } else {
         parts::merge(&arguments.merge)?

@@ -22,6 +22,9 @@ pub struct Asked {
     pub changes: Changes,
     /// States after which a proof is given up.
     pub limit: u32,
+    /// Seconds for all widths of a circuit, if they were asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<f64>,
 }
 
 /// Kind of a row: a proof over all states or a sweep over all cases.

@@ -14,13 +14,13 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// A bar over all tasks, and a line for each that is under way.
-struct Bars {
+pub struct Bars {
     lines: MultiProgress,
-    all: ProgressBar,
+    pub all: ProgressBar,
 }
 
 impl Bars {
-    fn new(tasks: usize) -> Self {
+    pub fn new(tasks: usize) -> Self {
         let lines = MultiProgress::new();
         let all = lines.add(ProgressBar::new(tasks as u64));
         if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos} of {len}") {
@@ -29,7 +29,7 @@ impl Bars {
         Bars { lines, all }
     }
 
-    fn line(&self, task: &Task) -> ProgressBar {
+    pub fn line(&self, task: &Task) -> ProgressBar {
         let line = self.lines.add(ProgressBar::new_spinner());
         if let Ok(style) = ProgressStyle::with_template("{spinner} {prefix}: {msg}") {
             line.set_style(style);
@@ -40,10 +40,27 @@ impl Bars {
 }
 
 /// Place for the waves of counterexamples.
-struct Waves<'a> {
+pub struct Waves<'a> {
     directory: &'a Path,
     /// Files that `clean` knows.
     list: Written,
+}
+
+impl<'a> Waves<'a> {
+    /// Made before the first counterexample: files that are there are not of this command.
+    pub fn new(directory: &'a Path) -> Self {
+        Waves {
+            directory,
+            list: Written::read(directory),
+        }
+    }
+}
+
+/// Limits of a proof.
+#[derive(Clone, Copy)]
+pub struct Limits {
+    pub states: u32,
+    pub until: Option<Instant>,
 }
 
 /// The rows of a part of the tasks, in their order. Proofs run side by side, a thread each; then the
@@ -52,14 +69,14 @@ pub fn run(tasks: &[Task], shard: Shard, limit: u32, out: &Path) -> Result<Vec<R
     threads::start()?;
     let mine = tasks::of_shard(shard, tasks);
     let bars = Bars::new(mine.len());
-    // Before the first counterexample: files that are there are not of this command.
-    let out = Waves {
-        directory: out,
-        list: Written::read(out),
+    let out = Waves::new(out);
+    let limits = Limits {
+        states: limit,
+        until: None,
     };
     let done = |(index, task): (usize, &Task)| {
         let line = bars.line(task);
-        let row = row(task, shard, limit, &out, &line);
+        let row = row(task, shard, limits, &out, &line);
         line.finish_and_clear();
         bars.all.inc(1);
         row.map(|row| (index, row))
@@ -76,17 +93,18 @@ pub fn run(tasks: &[Task], shard: Shard, limit: u32, out: &Path) -> Result<Vec<R
     Ok(rows.into_iter().map(|(_, row)| row).collect())
 }
 
-fn row(
+/// Proves or sweeps.
+pub fn row(
     task: &Task,
     shard: Shard,
-    limit: u32,
+    limits: Limits,
     out: &Waves<'_>,
     line: &ProgressBar,
 ) -> Result<Row, Failure> {
     let start = Instant::now();
     let mut row = match task.kind {
         Kind::Proof => match task.entry.proof(&task.pairs) {
-            Ok(circuit) => prove(task, &*circuit, limit, out, line)?,
+            Ok(circuit) => prove(task, &*circuit, limits, out, line)?,
             Err(_) => return Err(unmade(task)),
         },
         Kind::Sweep => match task.entry.law(&task.pairs) {
@@ -123,14 +141,15 @@ fn begun(task: &Task, invariants: Vec<String>) -> Row {
 fn prove(
     task: &Task,
     circuit: &dyn AnyCircuit,
-    limit: u32,
+    limits: Limits,
     out: &Waves<'_>,
     line: &ProgressBar,
 ) -> Result<Row, Failure> {
     let name = task.circuit();
     let row = begun(task, circuit.invariants());
     let search = ProofSearch {
-        states: limit,
+        states: limits.states,
+        until: limits.until,
         waves: Some(out.directory),
         ..ProofSearch::default()
     };
