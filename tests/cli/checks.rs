@@ -32,6 +32,32 @@ fn a_width_is_taken_up() {
 }
 
 #[test]
+fn all_widths_go_up_from_one_until_the_time_is_over() {
+    let text = Bench::new().succeed(&["check", "enable_counter", "--all-widths=0.3"]);
+    let rows = text.lines().filter(|row| row.starts_with("enable_counter"));
+    let mut widths = 0;
+    for (width, row) in (1..).zip(rows) {
+        let cells: Vec<_> = row.split_whitespace().collect();
+        assert_eq!(cells[1], width.to_string(), "{text}");
+        match *cells.last().unwrap() {
+            "proved" => assert_eq!(cells[2], ((1_u64 << width) - 1).to_string(), "{text}"),
+            "decided" => assert!(width > 3, "{text}"),
+            other => panic!("{other}: {text}"),
+        }
+        widths = width;
+    }
+    assert!(widths > 3, "{text}");
+    Bench::new()
+        .command(&["check", "integrator", "--all-widths"])
+        .assert()
+        .code(2)
+        .stderr(
+            "error: --all-widths: integrator: swept, not proved; allowed: circuits that are \
+             proved\n",
+        );
+}
+
+#[test]
 fn a_proof_that_is_given_up_fails() {
     Bench::new()
         .command(&["check", "unit_law", "--limit", "10"])
