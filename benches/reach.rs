@@ -9,7 +9,6 @@ fn proof<C: Specified>(circuit: &C) -> Proof {
     let invariants = circuit.invariants();
     let outcome = reach(circuit, &invariants)
         .inputs(|i| circuit.applies(i))
-        .assume(|q, i| circuit.assumes(q, i))
         .run()
         .expect("narrow enough");
     outcome.proof().expect("it holds")

@@ -265,6 +265,8 @@ pub mod conventions {
     pub struct Memories;
     #[doc = include_str!("../rtl_notes/conventions/proofs.md")]
     pub struct Proofs;
+    #[doc = include_str!("../rtl_notes/proofs.md")]
+    pub struct WhatIsProved;
     #[doc = include_str!("../rtl_notes/conventions/running.md")]
     pub struct Running;
 }

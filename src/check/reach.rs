@@ -144,16 +144,16 @@ impl<'a, C: Circuit> Stated<'a, C> {
 /// every input. [`run`](Reach::run) returns a proof of the invariants or a shortest
 /// counterexample.
 ///
-/// The outcome is the same in every run. The rules for inputs in
-/// [`Specified`] do not count here; [`prove`] applies them.
+/// The outcome is the same in every run. What the circuit
+/// [`applies`](Specified::applies) does not count here; [`prove`] restricts the inputs to it.
 #[must_use = "nothing is searched before it runs"]
 pub fn reach<'a, C: Circuit>(circuit: &'a C, invariants: &'a Invariants<'a, C>) -> Reach<'a, C> {
     Reach::of(circuit, Stated::Given(invariants))
 }
 
 /// Prepares the proof of a circuit: a search that checks its
-/// [`invariants`](Specified::invariants), with the inputs that its
-/// [`applies`](Specified::applies) and [`assumes`](Specified::assumes) allow.
+/// [`invariants`](Specified::invariants), with the inputs that it
+/// [`applies`](Specified::applies).
 ///
 /// ```
 /// use motion_rtl::circuits::blocks::EnableCounter;
@@ -169,9 +169,7 @@ pub fn reach<'a, C: Circuit>(circuit: &'a C, invariants: &'a Invariants<'a, C>) 
 /// ```
 #[must_use = "nothing is searched before it runs"]
 pub fn prove<C: Specified>(circuit: &C) -> Reach<'_, C> {
-    Reach::of(circuit, Stated::Own(circuit.invariants()))
-        .inputs(|i| circuit.applies(i))
-        .assume(|q, i| circuit.assumes(q, i))
+    Reach::of(circuit, Stated::Own(circuit.invariants())).inputs(|i| circuit.applies(i))
 }
 
 impl<'a, C: Circuit> Reach<'a, C> {

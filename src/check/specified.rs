@@ -1,5 +1,5 @@
 use super::Invariants;
-use crate::hdl::{Circuit, Registers, Value};
+use crate::hdl::{Circuit, Value};
 
 /// Circuit with its specification: properties that must hold for any input.
 pub trait Specified: Circuit {
@@ -11,12 +11,6 @@ pub trait Specified: Circuit {
 
     /// True if a proof applies this input; by default every input.
     fn applies(&self, _: &Self::In<Value>) -> bool {
-        true
-    }
-
-    /// True if a proof applies this input in this state; by default in every state. The comment of
-    /// the circuit states what it relies on.
-    fn assumes(&self, _: &Registers<Self>, _: &Self::In<Value>) -> bool {
         true
     }
 }

@@ -4,7 +4,7 @@ use crate::circuits::{Lock, Up};
 use crate::reach::proof;
 use expect_test::{Expect, expect};
 use motion_rtl::check::{CheckError, Outcome, UnknownSignal, prove};
-use motion_rtl::hdl::{Registers, Value};
+use motion_rtl::hdl::Value;
 use motion_rtl::prelude::*;
 use motion_rtl::registry::{CATALOGUE, Pair, ProofSearch};
 use motion_rtl::sim::Sample;
@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 struct Ruled {
     /// Greatest summand that `applies` allows.
     most: u64,
-    /// Count from which `assumes` allows zero only.
+    /// Count from which zero only is given.
     full: u64,
 }
 
@@ -36,20 +36,26 @@ impl Circuit for Ruled {
             },
         )
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let few = now.q.count.resize(6).below(self.full);
+        let given = few | now.i.by.is_zero();
+        vec![Property::given(
+            "zero is added from the full count on",
+            given,
+        )]
+    }
 }
 
 impl Specified for Ruled {
     fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new().step("never down", |now, next| {
+        Invariants::of(self).step("never down", |now, next| {
             let (before, after) = (now.q.count, next.q.count);
             require(after >= before, ["count"], || format!("{before}, {after}"))
         })
     }
     fn applies(&self, i: &In<Value>) -> bool {
         i.by <= self.most
-    }
-    fn assumes(&self, registers: &Registers<Self>, i: &In<Value>) -> bool {
-        registers.q.count < self.full || i.by == 0
     }
 }
 
