@@ -122,10 +122,11 @@ impl Circuit for PulseGenerator {
 /// High if count and toggle are those of `elapsed` ticks into a unit time with that half-period, if
 /// RST clears them.
 pub(super) fn is_at(q: &Reg<Open>, half_period: U, elapsed: U) -> Bit {
-    let (toggles, count) = divided(elapsed, half_period);
+    let width = elapsed.width().max(half_period.width());
+    let (toggles, count) = divided(elapsed.resize(width), half_period.resize(width));
     half_period.is_zero().mux(
         q.count.is_zero() & !q.toggle,
-        q.count.equals(count) & q.toggle.equals(toggles.bit(0)),
+        q.count.resize(width).equals(count) & q.toggle.equals(toggles.bit(0)),
     )
 }
 
