@@ -73,6 +73,12 @@ struct Stated {
     made: [Vec<Option<Id>>; 2],
 }
 
+impl Stated {
+    fn at(&self, (step, id): (bool, netlist::Id)) -> Option<Id> {
+        self.made[usize::from(step)].get(id).copied().flatten()
+    }
+}
+
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum State {
     Waiting,
@@ -386,72 +392,109 @@ impl<'d> Flattening<'d> {
             .collect()
     }
 
-    /// Makes a node of a property; where it spans a `step`, of signals after the edge.
+    /// Makes a node of a property, and those that it needs; where it spans a `step`, of signals
+    /// after the edge.
     fn state(
         &mut self,
         stated: &mut Stated,
         step: bool,
         id: netlist::Id,
     ) -> Result<Id, EngineError> {
-        use netlist::Node;
-        if let Some(made) = stated.made[usize::from(step)].get(id).copied().flatten() {
-            return Ok(made);
+        // A list of nodes to make, as properties may be deep.
+        let mut open = vec![(step, id)];
+        let mut made = None;
+        while let Some(&(step, id)) = open.last() {
+            made = stated.at((step, id));
+            if made.is_none() {
+                let before = open.len();
+                for needed in self.needed(stated.part, step, id)? {
+                    if stated.at(needed).is_none() {
+                        open.push(needed);
+                    }
+                }
+                if open.len() > before {
+                    continue;
+                }
+                made = Some(self.state_one(stated, step, id)?);
+                stated.made[usize::from(step)][id] = made;
+            }
+            open.pop();
         }
+        made.ok_or_else(|| self.circle(stated.part, id))
+    }
+
+    fn circle(&self, part: usize, node: netlist::Id) -> EngineError {
+        EngineError::Circle {
+            module: self.parts[part].module.name.clone(),
+            node,
+        }
+    }
+
+    /// Returns the nodes that have to be made before a node of a property.
+    fn needed(
+        &self,
+        part: usize,
+        step: bool,
+        id: netlist::Id,
+    ) -> Result<Vec<(bool, netlist::Id)>, EngineError> {
+        use netlist::Node;
+        let module = self.parts[part].module;
+        let circle = || self.circle(part, id);
+        let (node, _) = *module.nodes.get(id).ok_or_else(circle)?;
+        let step = match node {
+            _ if !step && id < module.logic => return Ok(Vec::new()),
+            Node::Past(_) => false,
+            _ => step,
+        };
+        let needed: Vec<_> = node.operands().map(|operand| (step, operand)).collect();
+        match needed.iter().all(|(_, operand)| *operand < id) {
+            true => Ok(needed),
+            false => Err(circle()),
+        }
+    }
+
+    /// Makes a node of a property whose operands are made.
+    fn state_one(
+        &mut self,
+        stated: &Stated,
+        step: bool,
+        id: netlist::Id,
+    ) -> Result<Id, EngineError> {
+        use netlist::Node;
         let part = stated.part;
         let module = self.parts[part].module;
         let circle = || EngineError::Circle {
             module: module.name.clone(),
             node: id,
         };
-        let (node, shape) = *module.nodes.get(id).ok_or_else(circle)?;
-        let made = match node {
+        let (node, shape) = module.nodes[id];
+        let width = shape.width as u8;
+        let of = |step: bool, id| stated.at((step, id)).ok_or_else(circle);
+        Ok(match node {
             _ if !step && id < module.logic => self.made(part, id)?,
-            Node::Past(a) => self.state(stated, false, a)?,
+            Node::Past(a) => of(false, a)?,
             Node::Signal(signal) if step => match self.register(part, signal) {
                 Some(register) => self.flat.registers[register as usize].next,
-                None => self.made(part, id)?,
+                None => self.node(part, id, &self.input_ports(part))?,
             },
-            Node::Constant(bits) => {
-                let width = shape.width as u8;
-                self.add(part, Op::Constant(bits & mask(width)), width)
-            }
+            Node::Constant(bits) => self.add(part, Op::Constant(bits & mask(width)), width),
             Node::Signal(_) | Node::Parameter(_) | Node::Port { .. } => {
                 self.node(part, id, &self.input_ports(part))?
             }
-            node => {
-                let mut operands = Vec::new();
-                for operand in node.operands() {
-                    if operand >= id {
-                        return Err(circle());
-                    }
-                    operands.push((operand, self.state(stated, step, operand)?));
-                }
-                let of = |id| {
-                    let made = operands.iter().find(|(operand, _)| *operand == id);
-                    made.map(|(_, made)| *made).ok_or_else(circle)
-                };
-                let width = shape.width as u8;
-                match node {
-                    Node::Read(memory, a) => {
-                        let memory = self.memory(part, memory).ok_or_else(circle)?;
-                        let address = of(a)?;
-                        match step {
-                            true => self.read_after(part, memory, address),
-                            false => self.add(part, Op::Read(memory, address), width),
-                        }
-                    }
-                    node => match operation(node, shape, |id| module.nodes[id].1, of)? {
-                        Op::Slice(a, 0) if self.flat.node(a).width == width => a,
-                        Op::Extend(a) | Op::ExtendSigned(a) if self.flat.node(a).width == width => {
-                            a
-                        }
-                        op => self.add(part, op, width),
-                    },
+            Node::Read(memory, a) => {
+                let memory = self.memory(part, memory).ok_or_else(circle)?;
+                let address = of(step, a)?;
+                match step {
+                    true => self.read_after(part, memory, address),
+                    false => self.add(part, Op::Read(memory, address), width),
                 }
             }
-        };
-        stated.made[usize::from(step)][id] = Some(made);
-        Ok(made)
+            node => match operation(node, shape, |id| module.nodes[id].1, |id| of(step, id))? {
+                Op::Slice(a, 0) if self.flat.node(a).width == width => a,
+                Op::Extend(a) | Op::ExtendSigned(a) if self.flat.node(a).width == width => a,
+                op => self.add(part, op, width),
+            },
+        })
     }
 
     /// Makes the word that a memory has at an address after the edge.

@@ -348,8 +348,15 @@ impl Bit {
     /// High if all bits are.
     #[track_caller]
     pub fn all(bits: impl IntoIterator<Item = Bit>) -> Bit {
-        let all = bits.into_iter().reduce(|all, bit| all & bit);
-        all.unwrap_or_else(Bit::high)
+        let mut bits: Vec<Bit> = bits.into_iter().collect();
+        // Pair by pair, which makes no deep network of many bits.
+        while bits.len() > 1 {
+            let pairs = bits.chunks(2);
+            bits = pairs
+                .map(|pair| pair.iter().copied().reduce(|a, b| a & b).unwrap_or(pair[0]))
+                .collect();
+        }
+        bits.first().copied().unwrap_or_else(Bit::high)
     }
 
     /// Returns the bit as a word of one bit.

@@ -74,7 +74,11 @@ fn a_limit_is_no_proof() {
         };
         assert_eq!(*progress, expected);
         assert_eq!(outcome.proof(), None);
-        assert!(outcome.to_string().starts_with("not decided: the limit of"));
+        assert!(
+            outcome
+                .to_string()
+                .starts_with("not decided: the limit was reached")
+        );
         assert!(outcome.counterexample().is_none());
     }
     let outcome = reach(&circuit, &none).limit(9).run().unwrap();

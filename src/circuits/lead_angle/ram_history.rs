@@ -26,6 +26,10 @@ pub struct RamHistory {
     pub position: usize,
 }
 
+/// The most words of which a property looks at each. Of more it looks at the word that is written,
+/// and at the one that the tap selects.
+const MOST: usize = 256;
+
 signals! { for RamHistory as c;
     /// Flip-flops and memory.
     pub struct Reg {
@@ -63,18 +67,25 @@ impl Circuit for RamHistory {
     fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
         let (i, q, next) = (&now.i, &now.q, &now.next.q);
         let counted = next.address.equals(i.ck.mux(q.address + 1, q.address));
-        let words = (0..q.samples.len()).map(|index| {
-            let written = i.ck & q.address.equals(index as u64);
-            let word = written.mux(i.position.unsigned(), q.samples.word(index));
-            next.samples.word(index).equals(word)
+        let old = q.address - i.tap;
+        let looked_at: Vec<U> = match q.samples.len() {
+            words @ ..=MOST => (0..words)
+                .map(|at| U::new(at as u64, q.address.width()))
+                .collect(),
+            _ => vec![q.address, old],
+        };
+        let words = looked_at.into_iter().map(|at| {
+            let written = i.ck & q.address.equals(at);
+            let word = written.mux(i.position.unsigned(), q.samples.read(at));
+            next.samples.read(at).equals(word)
         });
         let taken = i.ck & is_kept(self.stages, i.tap);
-        let sample = q.samples.read(q.address - i.tap).signed();
+        let sample = q.samples.read(old).signed();
         vec![
             Property::step(
                 "CK writes the sample at address and counts address up, and changes no other word",
                 &["samples", "address"],
-                words.fold(counted, |all, word| all & word),
+                counted & Bit::all(words),
             ),
             Property::step(
                 "at CK, pair.old becomes the sample of tap CKs ago, and otherwise it stays",

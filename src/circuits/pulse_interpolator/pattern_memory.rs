@@ -186,13 +186,12 @@ impl Circuit for PatternMemory {
         let port = &i.port;
         let axis = U::parameter("axis", self.axis, 3);
         let written = port.write & port.write_axis.equals(axis);
-        let words = (0..q.half_periods.len()).map(|at| {
-            let here = written & port.write_address.equals(at as u64);
-            let half_period = here.mux(port.write_half_period, q.half_periods.word(at));
-            let direction = here.mux(port.write_direction.word(), q.directions.word(at));
-            next.half_periods.word(at).equals(half_period)
-                & next.directions.word(at).equals(direction)
-        });
+        // Of any word: the address is free where nothing is read.
+        let here = written & port.write_address.equals(i.address);
+        let half_period = here.mux(port.write_half_period, q.half_periods.read(i.address));
+        let direction = here.mux(port.write_direction.word(), q.directions.read(i.address));
+        let word = next.half_periods.read(i.address).equals(half_period)
+            & next.directions.read(i.address).equals(direction);
         vec![
             Property::step(
                 "a read outputs the word that was stored before the edge",
@@ -212,7 +211,7 @@ impl Circuit for PatternMemory {
             Property::step(
                 "only a write to this axis changes a word, and only the word at write_address",
                 &["half_periods", "directions"],
-                Bit::all(words),
+                word,
             ),
         ]
     }

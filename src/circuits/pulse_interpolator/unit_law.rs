@@ -128,7 +128,7 @@ impl Circuit for UnitLaw {
 impl UnitLaw {
     /// The count law alone, which the literal variant violates with valid data.
     pub fn count_law(&self) -> Invariants<'_, Self> {
-        Invariants::of(self).always(
+        Invariants::<Self>::new().always(
             "the number of pulses in a unit time obeys the count law",
             |now| {
                 let (n, period) = (now.q.held_half_period, now.q.held_period.max(1));
