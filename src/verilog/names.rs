@@ -104,7 +104,7 @@ impl Names {
                 parts[address] |= !self.is_index(module, address);
             }
         }
-        self.share_of(module, &live, &uses, &parts);
+        self.share_of(module, &live, (&uses, &parts), "net");
     }
 
     /// Names what Verilog takes no part of without a name in what assertions compute, and, where
@@ -138,7 +138,7 @@ impl Names {
                 self.shared.push(id);
             }
         }
-        self.share_of(module, &read, &vec![0; read.len()], &parts);
+        self.share_of(module, &read, (&vec![0; read.len()], &parts), "f_value");
     }
 
     /// Returns how often the nodes that are read use each node, and whether they take parts of it.
@@ -168,7 +168,13 @@ impl Names {
     }
 
     /// Names, of what is read, what is used more than once, and that of which parts are taken.
-    fn share_of(&mut self, module: &Module, read: &[bool], uses: &[usize], parts: &[bool]) {
+    fn share_of(
+        &mut self,
+        module: &Module,
+        read: &[bool],
+        (uses, parts): (&[usize], &[bool]),
+        fallback: &str,
+    ) {
         for id in 0..module.nodes.len() {
             let (node, _) = module.nodes[id];
             let constant = matches!(node, Node::Constant(_) | Node::Parameter(_));
@@ -176,8 +182,8 @@ impl Names {
                 continue;
             }
             if parts[id] || uses[id] > 1 && !self.is_plain(module, id) {
-                let name = self.describe(module, id).unwrap_or_default();
-                let name = self.free(&name);
+                let name = self.describe(module, id);
+                let name = self.free(&name.unwrap_or_else(|| fallback.to_owned()));
                 self.of.insert(id, name);
                 self.shared.push(id);
             }

@@ -211,7 +211,8 @@ fn windows_and_scopes_that_are_none_are_refused() {
     assert!(done.stderr.starts_with(&text), "{}", done.stderr);
     assert_eq!((done.code, bench.names()), (2, vec!["p.hpgl".to_owned()]));
     for scope in ["nope", "", "pulse_interpolator.z", "pulse_interpolator.x."] {
-        let text = format!("--only: there is no {scope}; allowed: a signal, or a scope: {SCOPES}");
+        let named = if scope.is_empty() { "\"\"" } else { scope };
+        let text = format!("--only: there is no {named}; allowed: a signal, or a scope: {SCOPES}");
         refuse(&["--only", scope], &text);
     }
     let wanted = ["--only", "pulse_interpolator.x", "--only", "nope"];

@@ -218,8 +218,7 @@ impl Circuit for StepSequencer {
                 !(next.reverse ^ reverse),
             ),
             Property::step(
-                "the first halt in move makes halting high for a tick and sets missed, and a stop \
-                 in place of an operation also sets missed",
+                "the first halt in move pulses halting; it and a stop in place of an operation set missed",
                 &["halting", "missed"],
                 !(next.halting ^ halts) & !(next.missed ^ missed),
             ),

@@ -67,4 +67,51 @@ module address_sequencer (
             end
         end
 
+`ifdef FORMAL
+    reg f_past_valid = 1'b0;
+    always @(posedge clk)
+        f_past_valid <= 1'b1;
+
+    always @(posedge clk) begin
+        // state and address change only at RST.
+        if (f_past_valid && !$past(rst))
+            assert ($past(unit_rst) || (state == $past(state) && address == $past(address)));
+        // A command is taken at RST if pending_now is high, in IDLE, or at the last address.
+        assert (!(take ^ (unit_rst && pending && (pending_now || !state || at_last))));
+        // A command with pending_run starts its pattern at pending_base.
+        if (f_past_valid && !$past(rst))
+            assert (!($past(unit_rst) && $past(take) && $past(pending_run)) ||
+                (state &&
+                 address == $past(pending_base) &&
+                 base == $past(pending_base) &&
+                 last == $past(pending_last) &&
+                 !(cyclic ^ $past(pending_cyclic))));
+        // A command without pending_run stops the pattern and holds the address.
+        if (f_past_valid && !$past(rst))
+            assert (!($past(unit_rst) && $past(take) && !$past(pending_run)) ||
+                (!state && address == $past(address)));
+        // Without a command, a running pattern advances by one address per RST.
+        if (f_past_valid && !$past(rst))
+            assert (!($past(unit_rst) && !$past(take) && $past(state) &&
+                 $past(address) != $past(last)) ||
+                (state && address == $past(address) + 4'd1));
+        // After the last address, a cyclic pattern restarts and any other stops there.
+        if (f_past_valid && !$past(rst))
+            assert (!($past(unit_rst) && !$past(take) && $past(state) &&
+                 $past(address) == $past(last)) ||
+                ($past(cyclic) ? state && address == $past(base) :
+                 !state && address == $past(address)));
+        // In IDLE, state and address stay until a command is taken.
+        if (f_past_valid && !$past(rst))
+            assert (!($past(unit_rst) && !$past(take) && !$past(state)) ||
+                (!state && address == $past(address)));
+        // RST reads the next address if a pattern runs next, and otherwise blanks.
+        if (f_past_valid && !$past(rst))
+            assert (!(($past(read) || $past(blank)) ^ $past(unit_rst)) &&
+                !($past(read) && $past(blank)) &&
+                (!$past(read) || (state && address == $past(next_address))) &&
+                (!$past(blank) || !state));
+    end
+`endif
+
 endmodule

@@ -87,6 +87,62 @@ module pattern_memory #(
                 direction_reg <= directions[address];
         end
 
+`ifdef FORMAL
+    reg f_past_valid = 1'b0;
+    always @(posedge clk)
+        f_past_valid <= 1'b1;
+
+    reg past_read;
+    reg past_blank;
+    reg past_address;
+    reg past_write;
+    reg [2:0] past_write_axis;
+    reg past_write_address;
+    reg [3:0] past_write_half_period;
+    reg past_write_direction;
+    reg [3:0] past_half_period;
+    reg past_direction;
+    reg [3:0] past_net;
+    reg past_net_2;
+    always @(posedge clk) begin
+        past_read <= read;
+        past_blank <= blank;
+        past_address <= address;
+        past_write <= write;
+        past_write_axis <= write_axis;
+        past_write_address <= write_address;
+        past_write_half_period <= write_half_period;
+        past_write_direction <= write_direction;
+        past_half_period <= half_period;
+        past_direction <= direction;
+        past_net <= half_periods[address];
+        past_net_2 <= directions[address];
+    end
+
+    always @(posedge clk) begin
+        // A read outputs the word that was stored before the edge.
+        if (f_past_valid && !$past(rst))
+            assert (!past_read || (half_period == past_net && !(direction ^ past_net_2)));
+        // Blank without read sets half_period to 0 and keeps direction.
+        if (f_past_valid && !$past(rst))
+            assert (!(past_blank && !past_read) ||
+                (half_period == 4'd0 && !(direction ^ past_direction)));
+        // Without read and blank, half_period and direction keep their values.
+        if (f_past_valid && !$past(rst))
+            assert (past_read ||
+                past_blank ||
+                (half_period == past_half_period && !(direction ^ past_direction)));
+        // Only a write to this axis changes a word, and only the word at write_address.
+        if (f_past_valid && !$past(rst))
+            assert (half_periods[past_address] ==
+                (past_write && past_write_axis == AXIS && past_write_address == past_address ?
+                 past_write_half_period : past_net) &&
+                directions[past_address] ==
+                (past_write && past_write_axis == AXIS && past_write_address == past_address ?
+                 past_write_direction : past_net_2));
+    end
+`endif
+
 endmodule
 
 // pulse_generator: toggles its pulse signal every half-period.
@@ -253,5 +309,20 @@ module axis (
         .unit_rst (unit_rst),
         .step     (sync_step)
     );
+
+`ifdef FORMAL
+    reg f_past_valid = 1'b0;
+    always @(posedge clk)
+        f_past_valid <= 1'b1;
+
+    always @(posedge clk) begin
+        // Step is low in the tick after RST.
+        if (f_past_valid && !$past(rst))
+            assert (!$past(unit_rst) || !sync_step);
+        // dir changes only after a tick with read.
+        if (f_past_valid && !$past(rst))
+            assert ($past(read) || !(memory_direction ^ $past(memory_direction)));
+    end
+`endif
 
 endmodule
