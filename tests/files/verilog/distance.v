@@ -36,8 +36,8 @@ module distance (
         past_position <= position;
         past_old <= old;
     end
-    wire [4:0] net = $unsigned(moved);
-    wire [3:0] net_2 = $unsigned(past_position - past_old);
+    wire [4:0] f_value = $unsigned(moved);
+    wire [3:0] f_value_2 = $unsigned(past_position - past_old);
 
     always @(posedge clk) begin
         // From where it was to where it is.
@@ -46,7 +46,7 @@ module distance (
                 $signed({{1{past_position[3]}}, past_position}));
         // A part of a difference is that of the exact one.
         if (f_past_valid && !$past(rst))
-            assert (net_2[3:1] == net[3:1]);
+            assert (f_value_2[3:1] == f_value[3:1]);
     end
 `endif
 
