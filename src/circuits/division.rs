@@ -6,15 +6,16 @@ use crate::hdl::U;
 /// quotient are high, and the rest is the dividend.
 pub(super) fn divided(dividend: U, divisor: U) -> (U, U) {
     let width = dividend.width();
-    let wide = divisor.resize(width + 1);
     let mut rest = U::new(0, width);
     let mut quotient: Option<U> = None;
     for bit in (0..width).rev() {
-        let partial = rest.join(dividend.bit(bit).word());
-        let fits = !partial.below(wide);
-        rest = fits.mux(partial - wide, partial).resize(width);
+        // The bit above decides too; of the difference it is none.
+        let above = rest.bit(width - 1);
+        let partial = rest.shift_left(1) | dividend.bit(bit).word().resize(width);
+        let fits = above | !partial.below(divisor);
+        rest = fits.mux(partial - divisor, partial);
         quotient = Some(match quotient {
-            Some(above) => above.join(fits.word()),
+            Some(high) => high.join(fits.word()),
             None => fits.word(),
         });
     }

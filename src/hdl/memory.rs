@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// Greatest width of a memory's address in bits. Every word is a signal with a name of its own: millions
 /// of them take gigabytes.
-pub(crate) const MOST_ADDRESS: usize = 16;
+pub(crate) const MOST_ADDRESS: usize = 17;
 
 /// A memory with one write port, before the edge.
 ///

@@ -192,12 +192,6 @@ fn results_at_small_widths_are_those_of_a_visit_of_all_states() {
     compare(&few());
 }
 
-#[test]
-#[ignore = "takes long"]
-fn results_of_all_circuits_are_those_of_a_visit_of_all_states() {
-    compare(&visitable());
-}
-
 /// Puts faults into circuits at full width, until three are found in each. A fault that a visit of
 /// all states finds at small widths leaves some property without a proof.
 fn find(entries: &[&Entry]) {

@@ -221,7 +221,7 @@ fn widths_and_numbers_that_are_not_taken_are_refused() {
             "widths={position=18446744073709551616}",
             "is {position=18446744073709551616}, with a number that is too large; allowed: ",
         ),
-        ("compensator", "widths.step=17", "is 17; allowed: 1 to 16"),
+        ("compensator", "widths.step=18", "is 18; allowed: 1 to 17"),
     ] {
         bench.refuse_with(&verilog(circuit, &["--set", set, "--out", "v"]), |said| {
             let start = format!("error: --set {set}: {told}");

@@ -75,7 +75,7 @@ pub struct Induct<'a, C: Circuit> {
 ///     records!(In, Reg, Nothing);
 ///
 ///     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Nothing, Reg<Edge>) {
-///         let next = q.count.is(999_999).mux(0, q.count + 1);
+///         let next = q.count.equals(999_999).mux(0, q.count + 1);
 ///         (Nothing, Reg { count: i.go.mux(next, q.count) })
 ///     }
 ///
@@ -254,7 +254,7 @@ fn replay(
     property: usize,
     givens: &[usize],
 ) -> Option<usize> {
-    let mut engine = model.engine(Watch::All);
+    let mut engine = model.engine(Watch::Stated);
     engine.interpret();
     for (tick, ports) in inputs.iter().enumerate() {
         engine.drive_all(ports);

@@ -107,9 +107,8 @@ impl Circuit for PulseTrain {
         let begins = i.load & !i.pulses.is_zero();
         let over = !q.held.is_zero() & !q.count.below(q.held - 1);
         let due = !q.left.is_zero() & over;
-        // A bit more, so that the sum does not wrap.
-        let wide = self.pulses + 1;
-        let fell = (q.step & !next.step).word().resize(wide);
+        let fell = q.step & !next.step;
+        let fewer = !q.left.is_zero() & next.left.equals(q.left - 1);
         vec![
             Property::step(
                 "load starts the new train and drops the old one",
@@ -129,7 +128,7 @@ impl Circuit for PulseTrain {
             Property::step(
                 "left decreases by one at the end of each pulse",
                 &["left", "step"],
-                i.load | (next.left.resize(wide) + fell).equals(q.left.resize(wide)),
+                i.load | fell.mux(fewer, next.left.equals(q.left)),
             ),
             Property::step(
                 "spent is high if and only if no pulse is left after this tick",

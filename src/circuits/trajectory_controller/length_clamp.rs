@@ -72,7 +72,10 @@ impl Circuit for LengthClamp {
 
     fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
         let (end, clamped) = (now.i.path_end, now.w.clamped);
-        let less = now.i.length.minus(I::new(self.back as i64, self.width));
+        let less = match self.back {
+            0 => now.i.length,
+            back => now.i.length.minus(I::new(back as i64, self.width)),
+        };
         let inside = clamped.equals(less.resize(self.width).unsigned());
         let before = clamped.is_zero();
         let beyond = clamped.equals(end.unsigned());

@@ -90,14 +90,14 @@ fn every_number_of_things_has_a_range_of_its_own() {
 /// Every word of a memory is a signal with a name. Of the circuits with the largest memories, all
 /// addresses and numbers of axes are at their most.
 #[test]
-fn memories_hold_65536_words_and_no_circuit_millions() {
-    const TOTAL: usize = (16 * 2) << 16;
+fn memories_hold_131072_words() {
+    const TOTAL: usize = (16 * 2) << 17;
     for (name, words) in [
-        ("pattern_memory", 2 << 16),
-        ("compensator", 3 << 16),
-        ("pulse_interpolator", (8 * 2) << 16),
+        ("pattern_memory", 2 << 17),
+        ("compensator", 3 << 17),
+        ("pulse_interpolator", (8 * 2) << 17),
         ("pulse_interpolator_groups", TOTAL),
-        ("machine", 8 << 16),
+        ("machine", 8 << 17),
     ] {
         let entry = crate::registry::find(name).expect("it is there");
         let ends = ["address", "axes", "records", "segment", "step"];
@@ -110,14 +110,15 @@ fn memories_hold_65536_words_and_no_circuit_millions() {
         let made = read(entry, &largest).expect("sizes of its own");
         elaborate(&made).expect("within their ranges");
         let memories = made.model.outline().memories;
-        assert!(memories.iter().all(|memory| memory.words <= 1 << 16));
+        assert!(memories.iter().all(|memory| memory.words <= 1 << 17));
         let all: usize = memories.iter().map(|memory| memory.words).sum();
         assert!((words..=TOTAL).contains(&all), "{name}: {all}");
     }
     let memory = crate::registry::find("pattern_memory").expect("it is there");
-    let refused = elaborates(memory, Base::Full, "address", 17).unwrap_err();
+    let refused = elaborates(memory, Base::Full, "address", 18).unwrap_err();
     assert!(
-        refused.contains("has 131072 words of 16 bits; there are 1 to 65536 words of 1 to 64 bits"),
+        refused
+            .contains("has 262144 words of 16 bits; there are 1 to 131072 words of 1 to 64 bits"),
         "{refused}"
     );
 }
