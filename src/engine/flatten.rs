@@ -86,6 +86,13 @@ enum State {
     Settled,
 }
 
+fn circle(module: &Module, node: netlist::Id) -> EngineError {
+    EngineError::Circle {
+        module: module.name.clone(),
+        node,
+    }
+}
+
 fn unsettled(module: &Module, what: &str) -> EngineError {
     EngineError::Unsettled {
         module: module.name.clone(),
@@ -241,10 +248,7 @@ impl<'d> Flattening<'d> {
         match self.parts[place].state {
             State::Settled => return Ok(place),
             State::Settling => {
-                return Err(EngineError::Circle {
-                    module: module.name.clone(),
-                    node: self.parts[part].map.len(),
-                });
+                return Err(circle(module, self.parts[part].map.len()));
             }
             State::Waiting => {}
         }
@@ -261,10 +265,7 @@ impl<'d> Flattening<'d> {
         part.map
             .get(id)
             .copied()
-            .ok_or_else(|| EngineError::Circle {
-                module: part.module.name.clone(),
-                node: id,
-            })
+            .ok_or_else(|| circle(part.module, id))
     }
 
     fn node(&mut self, part: usize, index: usize, ports: &[usize]) -> Result<Id, EngineError> {
@@ -311,11 +312,18 @@ impl<'d> Flattening<'d> {
                 operation(node, shape, before, of)?
             }
         };
-        // An operation that changes no bit is the operand itself.
+        Ok(self.add_unless_same(part, op, width))
+    }
+
+    /// Adds an operation; one that changes no bit is the operand itself.
+    fn add_unless_same(&mut self, part: usize, op: Op, width: u8) -> Id {
         match op {
-            Op::Slice(a, 0) if self.flat.node(a).width == width => Ok(a),
-            Op::Extend(a) | Op::ExtendSigned(a) if self.flat.node(a).width == width => Ok(a),
-            op => Ok(self.add(part, op, width)),
+            Op::Slice(a, 0) | Op::Extend(a) | Op::ExtendSigned(a)
+                if self.flat.node(a).width == width =>
+            {
+                a
+            }
+            op => self.add(part, op, width),
         }
     }
 
@@ -420,14 +428,7 @@ impl<'d> Flattening<'d> {
             }
             open.pop();
         }
-        made.ok_or_else(|| self.circle(stated.part, id))
-    }
-
-    fn circle(&self, part: usize, node: netlist::Id) -> EngineError {
-        EngineError::Circle {
-            module: self.parts[part].module.name.clone(),
-            node,
-        }
+        made.ok_or_else(|| circle(self.parts[stated.part].module, id))
     }
 
     /// Returns the nodes that have to be made before a node of a property.
@@ -439,7 +440,7 @@ impl<'d> Flattening<'d> {
     ) -> Result<Vec<(bool, netlist::Id)>, EngineError> {
         use netlist::Node;
         let module = self.parts[part].module;
-        let circle = || self.circle(part, id);
+        let circle = || circle(module, id);
         let (node, _) = *module.nodes.get(id).ok_or_else(circle)?;
         let step = match node {
             _ if !step && id < module.logic => return Ok(Vec::new()),
@@ -463,10 +464,7 @@ impl<'d> Flattening<'d> {
         use netlist::Node;
         let part = stated.part;
         let module = self.parts[part].module;
-        let circle = || EngineError::Circle {
-            module: module.name.clone(),
-            node: id,
-        };
+        let circle = || circle(module, id);
         let (node, shape) = module.nodes[id];
         let width = shape.width as u8;
         let of = |step: bool, id| stated.at((step, id)).ok_or_else(circle);
@@ -489,11 +487,11 @@ impl<'d> Flattening<'d> {
                     false => self.add(part, Op::Read(memory, address), width),
                 }
             }
-            node => match operation(node, shape, |id| module.nodes[id].1, |id| of(step, id))? {
-                Op::Slice(a, 0) if self.flat.node(a).width == width => a,
-                Op::Extend(a) | Op::ExtendSigned(a) if self.flat.node(a).width == width => a,
-                op => self.add(part, op, width),
-            },
+            node => {
+                let before = |id: netlist::Id| module.nodes[id].1;
+                let op = operation(node, shape, before, |id| of(step, id))?;
+                self.add_unless_same(part, op, width)
+            }
         })
     }
 

@@ -78,7 +78,7 @@ impl Circuit for Shifter {
         vec![Property::always(
             "the result is the word divided by 2^by, rounded down",
             &["shifted"],
-            (1..64).map(case).fold(case(0), |all, case| all & case),
+            Bit::all((0..64).map(case)),
         )]
     }
 }

@@ -116,10 +116,7 @@ pub(super) fn objection(stages: usize) -> Option<String> {
 pub(super) fn moved_on(ck: Bit, sample: U, before: &Words, after: &Words) -> Bit {
     let newer = std::iter::once(sample).chain(before.iter());
     let stages = newer.zip(before.iter()).zip(after.iter());
-    let moved = stages.map(|((newer, old), next)| next.equals(ck.mux(newer, old)));
-    moved
-        .reduce(|all, stage| all & stage)
-        .unwrap_or(Bit::high())
+    Bit::all(stages.map(|((newer, old), next)| next.equals(ck.mux(newer, old))))
 }
 
 /// High if a history of this length keeps the sample of `tap` CKs ago.

@@ -184,12 +184,12 @@ impl Circuit for TargetData {
             Property::step(
                 "push appends a target, pop removes the oldest, and flush removes all",
                 &["write_address", "read_address", "xs", "ys"],
-                is_at & is_to & all(stored),
+                is_at & is_to & Bit::all(stored),
             ),
             Property::step(
                 "the outputs hold the target that was popped last",
                 &["target_x", "target_y"],
-                all(shown),
+                Bit::all(shown),
             ),
             Property::always(
                 "ready is high unless the queue is full, and available unless it is empty",
@@ -218,7 +218,7 @@ impl Field<'_> {
             to.equals(index as u64) | same
         };
         match words.len() {
-            0..=MOST_WORDS => stored & all((0..words.len()).map(kept)),
+            0..=MOST_WORDS => stored & Bit::all((0..words.len()).map(kept)),
             _ => stored,
         }
     }
@@ -267,11 +267,6 @@ fn fields(now: &Moment<TargetData>) -> Vec<Field<'_>> {
         }));
     }
     all
-}
-
-/// High if all are.
-fn all(bits: impl Iterator<Item = Bit>) -> Bit {
-    bits.fold(Bit::high(), |all, bit| all & bit)
 }
 
 impl Specified for TargetData {
