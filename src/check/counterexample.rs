@@ -78,10 +78,8 @@ impl Violation {
         clock: Clock,
         dir: &Path,
     ) -> Result<Vec<PathBuf>, RunError> {
-        let model = circuit.described()?;
-        let stem = stem(model.name(), &self.invariant);
-        let inputs = &mut self.ports.iter().cloned();
-        trace::play(&model, Start::default(), inputs, clock, dir, &stem)
+        let of = (&self.ports[..], Start::default());
+        save(circuit, (&self.invariant, ""), of, clock, dir)
     }
 }
 
@@ -133,8 +131,23 @@ impl<C: Circuit> fmt::Debug for Counterexample<C> {
     }
 }
 
+/// Plays inputs and writes the waves and their save file into `dir`, named after circuit and
+/// invariant, with `end` behind them. Returns their paths.
+pub(super) fn save(
+    circuit: &impl Described,
+    (invariant, end): (&str, &str),
+    (ports, start): (&[Vec<u64>], Start<'_>),
+    clock: Clock,
+    dir: &Path,
+) -> Result<Vec<PathBuf>, RunError> {
+    let model = circuit.described()?;
+    let name = stem(model.name(), invariant) + end;
+    let inputs = &mut ports.iter().cloned();
+    trace::play(&model, start, inputs, clock, dir, &name)
+}
+
 /// Returns the stem of the file names.
-pub(super) fn stem(circuit: &str, invariant: &str) -> String {
+fn stem(circuit: &str, invariant: &str) -> String {
     format!("{circuit} {invariant}")
         .chars()
         .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })

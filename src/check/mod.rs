@@ -59,6 +59,7 @@
 
 mod batches;
 mod blamed;
+mod cases;
 mod counterexample;
 mod coverage;
 mod drive;

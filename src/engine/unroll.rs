@@ -7,9 +7,15 @@ const MOST: usize = 1 << 20;
 
 impl Flat {
     /// Returns the last `leaves` leaves of a circuit in the last of `ticks` ticks from power-on,
-    /// with constant input ports, as a netlist without registers. Returns `None` if a memory is
-    /// written or there would be too many nodes.
-    pub(crate) fn unrolled(&self, ticks: u64, leaves: usize) -> Option<Flat> {
+    /// with constant input ports, as a netlist without registers. A leaf of one bit follows for
+    /// each of `groups`: high if all these properties hold in every tick. Returns `None` if a
+    /// memory is written or there would be too many nodes.
+    pub(crate) fn unrolled(
+        &self,
+        ticks: u64,
+        leaves: usize,
+        groups: &[Vec<usize>],
+    ) -> Option<Flat> {
         let written = self.memories.iter().any(|memory| memory.port != Port::Rom);
         let nodes = u64::try_from(self.nodes.len()).ok()?.checked_mul(ticks)?;
         if written || ticks == 0 || nodes > MOST as u64 {
@@ -33,6 +39,8 @@ impl Flat {
         for (value, width, instance) in self.registers.iter().map(power_on) {
             state.push(add(Op::Constant(value), node(width, instance)));
         }
+        let high = add(Op::Constant(1), node(1, 0));
+        let mut all = vec![high; groups.len()];
         let mut map: Vec<Id> = Vec::new();
         for tick in 0..ticks {
             if tick > 0 {
@@ -48,6 +56,12 @@ impl Flat {
                 };
                 map.push(id);
             }
+            for (all, group) in all.iter_mut().zip(groups) {
+                for &property in group {
+                    let holds = map[*self.properties.get(property)? as usize];
+                    *all = add(Op::And(*all, holds), node(1, 0));
+                }
+            }
         }
         let seen = self.leaves.len().checked_sub(leaves)?;
         let mut places: Vec<Place> = (0..self.inputs.len() as u32).map(Place::Input).collect();
@@ -59,6 +73,7 @@ impl Flat {
                 Place::Word(..) => return None,
             });
         }
+        places.extend(all.into_iter().map(Place::Node));
         Some(Flat {
             inputs: self.inputs.clone(),
             nodes: made,

@@ -7,7 +7,7 @@ use crate::engine::{Engine, EngineError, Flat, Program, Watch, ports_out};
 use crate::hdl::{
     Circuit, Declarations, Record, Shapes, Source, declarations, elaborate, with_inputs,
 };
-use crate::netlist::{Design, Role};
+use crate::netlist::{Assertion, Design, Role};
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
@@ -134,6 +134,12 @@ impl Elaborated {
     /// Returns the modules.
     pub fn design(&self) -> &Design {
         &self.design
+    }
+
+    /// Returns the statements about the circuit, in the order of its properties.
+    pub(crate) fn stated(&self) -> &[Assertion] {
+        let whole = self.design.modules.last();
+        whole.map_or(&[], |whole| &whole.assertions)
     }
 
     /// Returns the signals in the order of the leaves; power-on values are left at 0.

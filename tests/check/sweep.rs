@@ -2,6 +2,7 @@
 
 mod feedback;
 mod line;
+mod stated;
 mod words;
 
 use motion_rtl::check::{Law, cases, sweep};

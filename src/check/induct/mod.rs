@@ -162,8 +162,7 @@ pub(crate) fn conclude(
     limit: Duration,
 ) -> Result<Vec<Concluded<Violation>>, InductError> {
     let circuit = || model.name().to_owned();
-    let module = model.design().modules.last();
-    let stated = module.map_or(&[][..], |module| &module.assertions);
+    let stated = model.stated();
     let of = |is: fn(Claim) -> bool| {
         let all = stated.iter().enumerate();
         all.filter(move |(_, it)| is(it.claim))

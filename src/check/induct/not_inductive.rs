@@ -5,7 +5,7 @@ use super::frames::Frames;
 use super::search::Never;
 use super::unrolled::{At, Unrolled, number};
 use crate::check::blamed::below;
-use crate::check::counterexample::stem;
+use crate::check::counterexample::save;
 use crate::engine::sliced::NotSliced;
 use crate::engine::{Flat, Place, Watch};
 use crate::sim::{Described, Elaborated, RunError};
@@ -177,8 +177,6 @@ impl NotInductive {
         clock: Clock,
         dir: &Path,
     ) -> Result<Vec<PathBuf>, RunError> {
-        let model = circuit.described()?;
-        let stem = format!("{}_induction", stem(model.name(), &self.property));
         let comment = format!(
             "from a state that may never come: {} is violated in the last tick",
             self.property
@@ -187,8 +185,8 @@ impl NotInductive {
             state: &self.state,
             comment: Some(&comment),
         };
-        let inputs = &mut self.inputs.iter().cloned();
-        trace::play(&model, start, inputs, clock, dir, &stem)
+        let of = (&self.inputs[..], start);
+        save(circuit, (&self.property, "_induction"), of, clock, dir)
     }
 }
 

@@ -129,11 +129,6 @@ pub(super) fn ratio_follows(i: &In<Value>) -> bool {
     i.ratio == i.position.rem_euclid(2) as u64 * 15
 }
 
-/// Returns a position as the word that a memory holds.
-pub(super) fn stored(position: i64, width: usize) -> u64 {
-    position as u64 & u64::MAX >> (64 - width)
-}
-
 impl Circuit for PositionHistory {
     const NAME: &'static str = "position_history";
     const ABOUT: &'static str = "shift register of position samples, with a tap selector";

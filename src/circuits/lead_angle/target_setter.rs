@@ -10,7 +10,6 @@
 //!
 //! Departure: the speed is stored with the target, because the drive needs one for each step too.
 
-use super::position_history::stored;
 use crate::prelude::*;
 
 /// Target setter 18; target and speed of a step are at the outputs in the tick after `load`.
@@ -115,6 +114,6 @@ pub(super) fn words_to_compare(words: &Words, ports: [U; 2]) -> Vec<U> {
 impl Specified for TargetSetter {
     /// Both words of a step alike: none looks at the other.
     fn applies(&self, i: &In<Value>) -> bool {
-        stored(i.write_target, self.speed.min(self.position)) == i.write_speed
+        (i.write_target as u64).cut(self.speed.min(self.position)) == i.write_speed
     }
 }

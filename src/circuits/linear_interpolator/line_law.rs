@@ -139,8 +139,19 @@ impl Circuit for LineLaw {
     }
 }
 
+/// Returns B0, the remainder at the beginning of a cycle.
+pub(super) fn first_remainder(rule: Rule, master: I) -> I {
+    match rule {
+        Rule::Centred => {
+            let half = master.magnitude().shift_right(1).signed();
+            half.negated_by(master.is_negative())
+        }
+        Rule::Floor | Rule::Truncating => I::new(0, master.width()),
+    }
+}
+
 /// High if `value` lies between 0 and `end`, both included.
-fn on_the_way(value: I, end: I) -> Bit {
+pub(super) fn on_the_way(value: I, end: I) -> Bit {
     let same_way = !(value.is_negative() ^ end.is_negative());
     let beyond = end.magnitude().below_any(value.magnitude());
     value.is_zero() | (same_way & !beyond)
@@ -156,17 +167,6 @@ impl LineLaw {
     /// word.
     fn product(&self, a: I, b: I) -> I {
         a.times(b, 2 * self.integrator.position)
-    }
-
-    /// Returns B0, the remainder at the beginning of a cycle.
-    fn first(&self, master: I) -> I {
-        match self.integrator.rule {
-            Rule::Centred => {
-                let half = master.magnitude().shift_right(1).signed();
-                half.negated_by(master.is_negative())
-            }
-            Rule::Floor | Rule::Truncating => I::new(0, self.integrator.position),
-        }
     }
 
     /// Statements about the increments.
@@ -194,7 +194,7 @@ impl LineLaw {
         let (q, w) = (&now.q, &now.w);
         let (master, slave) = (q.held_master, q.held_slave);
         let width = 2 * self.integrator.position;
-        let first = self.first(master);
+        let first = first_remainder(self.integrator.rule, master);
         let moved = self.product(master, w.integral);
         let ideal = self.product(slave, q.sum);
         let left = (moved + w.remainder.resize(width)).equals(ideal + first.resize(width));

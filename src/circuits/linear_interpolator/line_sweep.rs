@@ -13,6 +13,7 @@
 //! of such steps, so the law holds for it too. Under these rules the increments may leave the
 //! segment: I is then right modulo 2^P. Truncation is checked on the segment.
 
+use super::line_law::{first_remainder, on_the_way};
 use super::{Integrator, Rule, integrator};
 use crate::check::Law;
 use crate::prelude::*;
@@ -52,8 +53,10 @@ signals! { for LineSweep as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// Ticks since the case began.
-        ticks: U(log2(c.ticks() as usize)),
+        /// Ticks since the case began; stays at the number of ticks of a case.
+        ticks: U(log2(c.ticks() as usize + 1)),
+        /// Ghost: the case one tick ago.
+        before: In(c),
         /// `valid` was high in the expected tick of the first increment.
         first: Bit,
         /// `valid` was high in any other tick.
@@ -100,13 +103,121 @@ impl Circuit for LineSweep {
             valid: q.first & valid,
             early: q.wrong,
         };
+        let ended = q.ticks.equals(self.ticks());
         let next = Reg {
-            ticks: q.ticks + 1,
+            ticks: ended.mux(q.ticks, q.ticks + 1),
+            before: In {
+                increment: i.increment,
+                sum: i.sum,
+                slave: i.slave,
+                master: i.master,
+            },
             first: q.first | (first & valid),
             wrong: q.wrong | (valid & !first),
         };
         (net, next)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w) = (&now.i, &now.q, &now.w);
+        let last = q.ticks.equals(self.ticks() - 1);
+        let constant = i.increment.equals(q.before.increment)
+            & i.sum.equals(q.before.sum)
+            & i.slave.equals(q.before.slave)
+            & i.master.equals(q.before.master);
+        let mut all = vec![
+            Property::given("a case does not change", q.ticks.is_zero() | constant),
+            Property::given("the master has a distance", !i.master.is_zero()),
+        ];
+        if self.integrator.rule == Rule::Truncating {
+            let [from, to] = self.points(i);
+            let on = on_the_way(from, i.master) & on_the_way(to, i.master);
+            all.push(Property::given("both points are on the segment", on));
+        }
+        let [integral, remainder] = self.result(i);
+        all.extend([
+            Property::always(
+                "valid comes with the results and in no other tick",
+                &["valid", "early"],
+                !last | (w.valid & !w.early),
+            ),
+            Property::always(
+                "I is the quotient",
+                &["integral"],
+                !last | w.integral.equals(integral),
+            ),
+            Property::always(
+                "B is the rest",
+                &["remainder"],
+                !last | w.remainder.equals(remainder),
+            ),
+        ]);
+        all
+    }
+}
+
+impl LineSweep {
+    /// Returns the points after both increments.
+    fn points(&self, i: &In) -> [I; 2] {
+        let first = i.sum.resize(self.integrator.position + 1);
+        [first, i.sum.plus(i.increment)]
+    }
+
+    /// Returns I and B after both increments.
+    fn result(&self, i: &In) -> [I; 2] {
+        let position = self.integrator.position;
+        let along = |to: I| i.slave.times(to, 2 * position + 1);
+        let [from, to] = self.points(i);
+        match self.integrator.rule {
+            rule @ (Rule::Floor | Rule::Centred) => {
+                let first = first_remainder(rule, i.master);
+                let (quotient, rest) = divided_down(along(to).plus(first), i.master);
+                [quotient.resize(position), rest]
+            }
+            Rule::Truncating => {
+                let (before, left) = divided_to_zero(along(from), i.master);
+                let step = along(to).minus(along(from));
+                let (quotient, rest) = divided_to_zero(step.plus(left), i.master);
+                [before.plus(quotient).resize(position), rest]
+            }
+        }
+    }
+}
+
+/// Returns the quotient and the rest of unsigned words, by long division: a bit of the quotient for
+/// each row, all in one tick.
+fn divided_unsigned(dividend: U, divisor: U) -> (U, U) {
+    let wide = divisor.width() + 1;
+    let mut rest = U::new(0, wide);
+    let mut quotient: Option<U> = None;
+    for bit in (0..dividend.width()).rev() {
+        let grown = rest.slice(0, wide - 1).join(dividend.slice(bit, 1));
+        let fits = !grown.below_any(divisor);
+        rest = fits.mux(grown - divisor.resize(wide), grown);
+        let digit = fits.word();
+        quotient = Some(quotient.map_or(digit, |high| high.join(digit)));
+    }
+    (quotient.unwrap_or(dividend), rest.resize(divisor.width()))
+}
+
+/// Returns the quotient rounded down and the rest, which has the sign of the divisor.
+fn divided_down(dividend: I, divisor: I) -> (I, I) {
+    let along = dividend.negated_by(divisor.is_negative());
+    // Of a negative number a, floor(a / b) is the complement of floor(~a / b).
+    let below = along.is_negative();
+    let complement = |word: U| below.mux(!word, word);
+    let (quotient, rest) = divided_unsigned(complement(along.unsigned()), divisor.magnitude());
+    let rest = below.mux(divisor.magnitude() - 1 - rest, rest);
+    let rest = rest.signed().negated_by(divisor.is_negative());
+    (complement(quotient).signed(), rest)
+}
+
+/// Returns the quotient rounded towards 0 and the rest, which has the sign of the dividend.
+fn divided_to_zero(dividend: I, divisor: I) -> (I, I) {
+    let (quotient, rest) = divided_unsigned(dividend.magnitude(), divisor.magnitude());
+    let opposite = dividend.is_negative() ^ divisor.is_negative();
+    let quotient = quotient.signed().negated_by(opposite);
+    (quotient, rest.signed().negated_by(dividend.is_negative()))
 }
 
 /// Returns `a / b` rounded by `rule`; `a` includes the first remainder.
@@ -157,3 +268,6 @@ impl Law for LineSweep {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

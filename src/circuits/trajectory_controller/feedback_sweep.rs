@@ -51,8 +51,10 @@ signals! { for FeedbackSweep as c;
     }
     /// Flip-flops.
     pub struct Reg {
-        /// Ticks since the case began.
-        ticks: U(log2(c.ticks() as usize)),
+        /// Ticks since the case began; stays at the number of ticks of a case.
+        ticks: U(log2(c.ticks() as usize + 1)),
+        /// Ghost: the case one tick ago.
+        before: In(c),
         /// `done` was high in a tick before the last.
         was_done: Bit,
     }
@@ -103,11 +105,78 @@ impl Circuit for FeedbackSweep {
             done,
             early: q.was_done,
         };
+        let ended = q.ticks.equals(self.ticks());
+        let axes = i.axes.iter().map(|axis| AxisCase {
+            error: axis.error,
+            way: axis.way,
+        });
         let next = Reg {
-            ticks: q.ticks + 1,
+            ticks: ended.mux(q.ticks, q.ticks + 1),
+            before: In {
+                axes: axes.collect(),
+                tangential_gain: i.tangential_gain,
+                normal_gain: i.normal_gain,
+            },
             was_done: q.was_done | done,
         };
         (net, next)
+    }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w) = (&now.i, &now.q, &now.w);
+        let last = q.ticks.equals(self.ticks() - 1);
+        let axes = i.axes.iter().zip(&q.before.axes);
+        let axes = axes
+            .map(|(axis, before)| axis.error.equals(before.error) & axis.way.equals(before.way));
+        let constant = Bit::all(axes)
+            & i.tangential_gain.equals(q.before.tangential_gain)
+            & i.normal_gain.equals(q.before.normal_gain);
+        let widths = self.feedback.widths;
+        let count = U::new(1 << widths.guard(), widths.direction());
+        let ways = i.axes.iter().map(|axis| !count.below(axis.way.magnitude()));
+        let sums = w.sum.iter().zip(self.fed(i));
+        let sums = Bit::all(sums.map(|(sum, fed)| sum.equals_any(fed)));
+        vec![
+            Property::given("a case does not change", q.ticks.is_zero() | constant),
+            Property::given("a count of the path is no longer than one", Bit::all(ways)),
+            Property::always(
+                "done comes in its tick and not earlier",
+                &["done", "early"],
+                !last | (w.done & !w.early),
+            ),
+            Property::always(
+                "the feedback is both parts of the error, each times its gain",
+                &["sum"],
+                !last | sums,
+            ),
+        ]
+    }
+}
+
+impl FeedbackSweep {
+    /// Returns the feedback of each axis.
+    fn fed(&self, i: &In) -> Vec<I> {
+        let widths = self.feedback.widths;
+        // Wide enough for a sum of four products.
+        let (error, way) = (widths.position, widths.direction());
+        let wide = error + way + 2;
+        let terms = i.axes.iter().map(|axis| axis.error.times(axis.way, wide));
+        let along = terms.reduce(|sum, term| sum + term);
+        let along = along
+            .unwrap_or_else(|| I::new(0, wide))
+            .shift_right(widths.guard());
+        let gain = |gain: U| gain.resize(widths.gain + 1).signed();
+        let (tangential, normal) = (gain(i.tangential_gain), gain(i.normal_gain));
+        let fed = i.axes.iter().map(|axis| {
+            let own = along
+                .times(axis.way, wide + way)
+                .shift_right(widths.guard());
+            let rest = axis.error.minus(own);
+            let sum = rest.width() + widths.gain + 2;
+            let fed = normal.times(rest, sum) + tangential.times(own, sum);
+            fed.shift_right(widths.gain_fraction())
+        });
+        fed.collect()
     }
 }
 
@@ -142,3 +211,6 @@ impl Law for FeedbackSweep {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -57,29 +57,42 @@ fn plain(flat: &Flat, case: u64) -> Vec<u64> {
     words
 }
 
-/// Compares the values of some nodes in all cases from `first` on.
-fn check(flat: &Flat, seen: &[Id], first: u64) {
+/// Compares the values of some nodes in all cases of the group that contains case `first`.
+fn check(flat: &Flat, seen: &[Id], first: u64, batch_bits: u32) {
     let places = seen.iter().map(|&id| Place::Node(id));
     let flat = Flat {
         leaves: places.collect(),
         parts: [0; 2],
         ..flat.clone()
     };
-    let sliced = Sliced::of(&flat).expect("no registers");
+    let bits: u32 = seen.iter().map(|&id| u32::from(flat.node(id).width)).sum();
+    let sliced = Sliced::of(&flat, batch_bits).expect("no registers");
+    assert_eq!(sliced.batch_bits(), batch_bits);
     let mut run = Run::new(&sliced);
-    // Results of an earlier run must not matter.
-    run.run(!first / 2 / LANES as u64 * LANES as u64);
-    run.run(first);
-    let cases = (0..LANES / 64).flat_map(|word| run.seen(word));
-    for (case, packed) in (first..).zip(cases) {
-        let words = plain(&flat, case);
-        let mut low = 0;
-        let mut expected = 0;
-        for &id in seen {
-            expected |= words[id as usize] << low;
-            low += u32::from(flat.node(id).width);
+    let group = (LANES as u64) << batch_bits;
+    let first = first / group * group;
+    // Results of an earlier group must not matter.
+    for batch in 0..(1 << batch_bits) / 2 + 1 {
+        run.run(!first / 2 / group * group, batch);
+    }
+    for batch in 0..1 << batch_bits {
+        run.run(first, batch);
+        let packed = (0..LANES / 64).flat_map(|word| run.seen(word));
+        for (lane, packed) in packed.enumerate() {
+            let case = first + batch + ((lane as u64) << batch_bits);
+            let words = plain(&flat, case);
+            let mut low = 0;
+            let mut expected = 0;
+            for &id in seen {
+                expected |= words[id as usize] << low;
+                low += u32::from(flat.node(id).width);
+            }
+            assert_eq!(packed, expected, "case {case} of nodes {seen:?}");
+            assert_eq!(run.case(bits as usize, lane), expected, "case {case}");
+            let bit = |word: u64| word >> (lane % 64) & 1;
+            let last = run.bits(bits as usize - 1, lane / 64).map(bit);
+            assert!(last.eq([expected >> (bits - 1) & 1]), "case {case}");
         }
-        assert_eq!(packed, expected, "case {case} of nodes {seen:?}");
     }
 }
 
@@ -101,11 +114,14 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
 
     #[test]
-    fn random_netlists_do_what_the_nodes_say(case in cases(true), first in any::<u64>()) {
+    fn random_netlists_do_what_the_nodes_say(
+        case in cases(true),
+        first in any::<u64>(),
+        batch_bits in 0u32..3,
+    ) {
         let flat = combinational(case.flat);
-        let first = first / 2 / LANES as u64 * LANES as u64;
         for group in groups(&flat) {
-            check(&flat, &group, first);
+            check(&flat, &group, first / 2, batch_bits);
         }
     }
 }
@@ -298,7 +314,7 @@ fn every_operation_at_every_narrow_width() {
             let all = (1u64 << (2 * width + 1)).div_ceil(LANES as u64);
             let step = all.div_ceil(8);
             for block in (0..all).step_by(step as usize) {
-                check(&flat, &[id], block * LANES as u64);
+                check(&flat, &[id], block * LANES as u64, 0);
             }
         }
     }

@@ -34,7 +34,7 @@ impl Tick {
             return Err(NotSliced);
         }
         edge.after.extend(edge.all);
-        let sliced = ordered(&edge.gates, &edge.after);
+        let sliced = ordered(&edge.gates, &edge.after, 0);
         let used = sliced.inputs.iter();
         let used = used.map(|&(bit, slot)| (bit as usize, slot));
         let (state, inputs): (Vec<_>, Vec<_>) = used.partition(|(bit, _)| *bit < 64);
@@ -112,7 +112,7 @@ impl<'t> Ticks<'t> {
 
     /// Runs one tick of all cases.
     pub fn run(&mut self) {
-        self.run.steps();
+        self.run.steps(0);
     }
 
     /// Returns a bit for each of 64 cases: high where all properties hold.

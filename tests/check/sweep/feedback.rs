@@ -57,6 +57,20 @@ impl Law for Mutant {
     }
 }
 
+/// In simulation the numbers confirm every case.
+#[test]
+fn properties_and_numbers_say_the_same_of_every_case() {
+    let law = feedback(2);
+    // The first cases, and some around the middle.
+    for from in [0, 1 << 18] {
+        let cases = from..from + (1 << 15);
+        let gates = sweep(&law).range(cases.clone()).run().unwrap().held();
+        let simulated = sweep(&law).range(cases).run_simulated().unwrap().held();
+        assert!(gates.is_some_and(|held| held > 0), "{gates:?}");
+        assert_eq!(gates, simulated);
+    }
+}
+
 #[test]
 #[ignore = "takes long"]
 fn the_feedback_is_both_parts_by_their_gains_and_a_mutant_confuses_them() {

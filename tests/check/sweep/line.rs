@@ -76,6 +76,20 @@ fn the_line_holds_by_every_rule_and_a_mutant_does_not_keep_it() {
     assert!(found.signals.contains(&"remainder".to_owned()), "{found}");
 }
 
+/// In simulation the numbers confirm every case.
+#[test]
+fn properties_and_numbers_say_the_same_of_every_case() {
+    for rule in [Rule::Floor, Rule::Truncating, Rule::Centred] {
+        let law = line(3, rule);
+        let [gates, simulated] = [sweep(&law).run(), sweep(&law).run_simulated()];
+        let held = gates.unwrap().held().expect("the law holds");
+        assert_eq!(simulated.unwrap().held(), Some(held), "{rule:?}");
+        if rule != Rule::Truncating {
+            assert_eq!(held, 7 << 9, "{rule:?}");
+        }
+    }
+}
+
 /// Too wide to be counted is said, not run.
 #[test]
 fn cases_of_64_bits_are_refused() {
