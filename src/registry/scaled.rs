@@ -1,6 +1,7 @@
 //! Circuits of the catalogue with all their widths changed at once.
 
 use super::{AnyModel, Base, Entry, Pair};
+use std::time::{Duration, Instant};
 
 /// Returns the stages of a history whose positions have `bits` bits.
 fn stages_at(bits: u64) -> u64 {
@@ -25,6 +26,42 @@ fn usual(widths: &[(String, u64)]) -> u64 {
 }
 
 impl Entry {
+    /// Returns widths at which a property of the full circuit, some keys changed, is proved. All
+    /// widths are halved until it is; `limit` is the time for each property.
+    pub fn narrower(
+        &self,
+        pairs: &[Pair],
+        property: &str,
+        limit: Duration,
+    ) -> Option<Vec<(String, u64)>> {
+        let full = self.widths(Base::Full, pairs);
+        let most = full.iter().map(|(_, bits)| *bits).max()?;
+        let start = Instant::now();
+        let mut divisor = 2;
+        while divisor <= most && start.elapsed() < 2 * limit {
+            let widths: Vec<_> = full
+                .iter()
+                .map(|(key, bits)| (key.clone(), (bits / divisor).max(1)))
+                .collect();
+            divisor *= 2;
+            let narrow = widths
+                .iter()
+                .map(|(key, bits)| Pair::new(key.clone(), *bits));
+            let pairs: Vec<_> = pairs.iter().cloned().chain(narrow).collect();
+            let Ok(circuit) = self.made(Base::Full, &pairs) else {
+                continue;
+            };
+            let Ok(concluded) = circuit.induct(limit) else {
+                continue;
+            };
+            let mut concluded = concluded.iter().filter(|it| it.property == property);
+            if concluded.any(|it| it.conclusion.is_proved()) {
+                return Some(widths);
+            }
+        }
+        None
+    }
+
     /// Returns three ways to make the small circuit about `bits` wide: all widths changed by the same
     /// difference, in proportion, or by interpolation between the small and the full circuit.
     pub fn scaled_pairs(&self, bits: u64) -> Vec<Vec<Pair>> {

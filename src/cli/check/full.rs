@@ -12,7 +12,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Arguments of the command that the report answers.
 #[derive(Debug, Serialize)]
@@ -124,7 +124,8 @@ pub fn run(asked: Asked, out: &Path) -> Result<FullReport, Failure> {
                     row.report = Some(with_waves(&from.to_string(), waves, &list));
                 }
                 Conclusion::TooLarge => {
-                    row.proved_at = narrower(entry, pairs, &row.property, limit);
+                    let narrower = entry.narrower(pairs, &row.property, limit);
+                    row.proved_at = narrower.map(|widths| widths.into_iter().collect());
                 }
                 _ => {}
             }
@@ -218,41 +219,6 @@ fn with_waves(report: &str, waves: Result<Vec<PathBuf>, RunError>, list: &Writte
         Err(error) => format!("none: {error}; allowed: another --out, a directory"),
     };
     format!("{}\nwaves: {waves}", report.trim_end())
-}
-
-/// Returns the widths at which a property is proved, found by halving all widths of the circuit.
-fn narrower(
-    entry: &Entry,
-    pairs: &[Pair],
-    property: &str,
-    limit: Duration,
-) -> Option<BTreeMap<String, u64>> {
-    let full = entry.widths(Base::Full, pairs);
-    let most = full.iter().map(|(_, bits)| *bits).max()?;
-    let start = Instant::now();
-    let mut divisor = 2;
-    while divisor <= most && start.elapsed() < 2 * limit {
-        let widths: Vec<_> = full
-            .iter()
-            .map(|(key, bits)| (key.clone(), (bits / divisor).max(1)))
-            .collect();
-        divisor *= 2;
-        let narrow = widths
-            .iter()
-            .map(|(key, bits)| Pair::new(key.clone(), *bits));
-        let pairs: Vec<_> = pairs.iter().cloned().chain(narrow).collect();
-        let Ok(circuit) = entry.made(Base::Full, &pairs) else {
-            continue;
-        };
-        let Ok(concluded) = circuit.induct(limit) else {
-            continue;
-        };
-        let mut concluded = concluded.iter().filter(|it| it.property == property);
-        if concluded.any(|it| it.conclusion.is_proved()) {
-            return Some(widths.into_iter().collect());
-        }
-    }
-    None
 }
 
 impl FullRow {

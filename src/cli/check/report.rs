@@ -163,6 +163,17 @@ impl Report {
                 self.too_wide.join(", ")
             );
         }
+        let is_named = |row: &Row| self.asked.circuits.contains(&row.circuit);
+        let named = self.rows.iter().filter(|row| is_named(row));
+        let mut named: Vec<_> = named
+            .filter(|row| row.kind == Kind::Proof && row.ended == Ended::Holds)
+            .map(|row| row.circuit.as_str())
+            .collect();
+        named.dedup();
+        if !named.is_empty() {
+            let named = named.join(" ");
+            let _ = writeln!(table, "at full width: motion-rtl check {named} --full");
+        }
         if self.shard.of > 1 {
             let _ = writeln!(table, "part {} of {}", self.shard.part, self.shard.of);
         }

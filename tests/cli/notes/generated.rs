@@ -4,7 +4,8 @@
 //! `UPDATE_NOTES=1 cargo test --release --test cli notes` writes them anew.
 
 use super::{
-    Note, axes, blends, connections, expect_none, miscounts, notes, rotations, small, states,
+    Note, axes, blends, connections, expect_none, full_width, miscounts, notes, rotations, small,
+    states,
 };
 use motion_rtl::circuits::pulse_interpolator::counts;
 use motion_rtl::hdl::{Declaration, MemoryDeclaration};
@@ -32,7 +33,11 @@ fn make(what: &str, note: &str, stands: &str, long: bool) -> Result<String, Stri
         ("charts", Some(entry)) => small::sentence(entry, note),
         ("connections", Some(entry)) => Ok(connections::table(entry)),
         ("blocks", None) => Ok(blocks(name)),
-        ("proofs", None) => Ok(proofs(name, if long { "" } else { stands })),
+        ("proofs", None) => {
+            let stands = if long { "" } else { stands };
+            let full = full_width::table(of(name), stands);
+            Ok(proofs(name, stands) + &full)
+        }
         ("keys", _) => keys(name),
         ("literal", None) => Ok(literal()),
         ("axes", None) => Ok(axes::table()),
@@ -267,7 +272,7 @@ fn signals(entry: &Entry) -> String {
 }
 
 /// A doc comment as a cell of a table.
-fn cell(doc: &str) -> String {
+pub fn cell(doc: &str) -> String {
     doc.replace('|', "\\|")
 }
 
@@ -283,40 +288,37 @@ fn memory_row(memory: &MemoryDeclaration) -> String {
 /// as they stand.
 fn proofs(patent: &str, stands: &str) -> String {
     let mut text = String::from(
-        "| circuit | widths | states | transitions | depth | proved |\n|---|---|---|---|---|---|\n",
+        "| circuit | widths | states | transitions | depth |\n|---|---|---|---|---|\n",
     );
     let entries: Vec<_> = of(patent).filter(|entry| entry.proved).collect();
     let rows = entries.into_par_iter().map(|entry| {
         let circuit = entry.proof(&[]).expect("it is made for its proof");
         let width = widths(entry, Base::Small);
-        let holds = circuit.invariants().join("; ");
-        if let Some(size) = long_proof(stands, &format!("| `{}` | {width} | ", entry.name)) {
-            return format!("{size} {holds} |\n");
+        if let Some(row) = long_proof(stands, &format!("| `{}` | {width} | ", entry.name)) {
+            return format!("{row}\n");
         }
         let verdict = circuit.prove(&ProofSearch::default(), &mut |_| {});
         let Ok(Verdict::Proved(proof)) = verdict else {
             panic!("{} is not proved: {verdict:?}", entry.name);
         };
         format!(
-            "| `{}` | {width} | {} | {} | {} | {} |\n",
+            "| `{}` | {width} | {} | {} | {} |\n",
             entry.name,
             thousands(proof.states),
             thousands(proof.transitions),
             proof.depth,
-            holds
         )
     });
     text.extend(rows.collect::<Vec<_>>());
     text
 }
 
-/// The row that begins so, up to what holds, if there is one and its proof takes long.
+/// The row that begins so, if there is one and its proof takes long.
 fn long_proof<'s>(stands: &'s str, begin: &str) -> Option<&'s str> {
     let row = stands.lines().find(|row| row.starts_with(begin))?;
-    let cells: Vec<_> = row.splitn(7, '|').collect();
+    let cells: Vec<_> = row.split('|').collect();
     let transitions: u64 = cells.get(4)?.trim().replace(',', "").parse().ok()?;
-    let size = row.strip_suffix(cells.get(6)?)?;
-    (transitions > LONG).then_some(size)
+    (transitions > LONG).then_some(row)
 }
 
 /// What breaks first in the literal variant.

@@ -6,6 +6,7 @@ mod catalogue;
 mod charts;
 mod connections;
 mod figures;
+mod full_width;
 mod generated;
 mod glossary;
 mod links;

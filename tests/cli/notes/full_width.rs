@@ -1,0 +1,134 @@
+//! The tables of the properties, with the way in which each is proved at full width.
+
+use super::generated::cell;
+use motion_rtl::check::{By, Concluded, Conclusion, Violation};
+use motion_rtl::netlist::Claim;
+use motion_rtl::registry::Entry;
+use rayon::prelude::*;
+use std::time::Duration;
+
+/// Time for a property: that of `check --full`.
+const LIMIT: Duration = Duration::from_secs(10);
+
+/// Circuits whose proofs take more than a fifth of a second; unless they are asked for, the note is
+/// believed.
+const SLOW: &[&str] = &[
+    "axis",
+    "difference_column",
+    "difference_history",
+    "gray_receiver",
+    "line_law",
+    "mul_div",
+    "pattern_memory",
+    "phase_counter",
+    "position_history",
+    "pulse_interpolator",
+    "ram_history",
+    "ratio_logic",
+    "scaler",
+    "sequencer",
+    "shifter",
+    "table_lead",
+    "target_data",
+    "tracking_loop",
+    "unit_law",
+    "unwrapper",
+    "vector_correction",
+];
+
+/// The properties of some circuits; those that stand there and take long as they stand.
+pub fn table<'e>(entries: impl Iterator<Item = &'e Entry>, stands: &str) -> String {
+    let entries: Vec<_> = entries.collect();
+    let rows = entries.into_par_iter().map(|entry| rows(entry, stands));
+    let rows: Vec<_> = rows.flatten().collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    let head = "\nThe properties, and how `check NAME --full` proves them at the full widths \
+                ([what the words mean](../proofs.md#full-width)):\n\n\
+                | circuit | property | at full width by |\n|---|---|---|\n";
+    head.to_owned() + &rows.concat()
+}
+
+/// The rows of a circuit: properties, then assumptions.
+fn rows(entry: &Entry, stands: &str) -> Vec<String> {
+    let full = entry.full();
+    let model = full.model().expect("it can be elaborated");
+    let module = model.design().modules.last().expect("there is one");
+    let stated = &module.assertions;
+    let begin = |name: &str| format!("| `{}` | {} | ", entry.name, cell(name));
+    let named = |of: fn(Claim) -> bool| {
+        let all = stated.iter().filter(move |one| of(one.claim));
+        all.map(|one| one.name)
+    };
+    let proved: Vec<_> = named(Claim::is_proved).collect();
+    let mut rows = Vec::new();
+    if !proved.is_empty() {
+        let known = |name: &&str| stands.lines().find(|row| row.starts_with(&begin(name)));
+        let known: Option<Vec<_>> = proved.iter().map(known).collect();
+        match known.filter(|_| SLOW.contains(&entry.name)) {
+            Some(known) => rows.extend(known.into_iter().map(|row| format!("{row}\n"))),
+            None => {
+                let concluded = full.induct(LIMIT).expect("it has properties");
+                rows.extend(concluded.iter().map(|one| {
+                    let by = by(entry, one);
+                    format!("{}{by} |\n", begin(&one.property))
+                }));
+            }
+        }
+    }
+    let given = named(|claim| claim == Claim::Given);
+    rows.extend(given.map(|name| format!("{}assumed |\n", begin(name))));
+    // What is stated in numbers of the small circuit.
+    let small = entry.proof(&[]).map(|circuit| circuit.invariants());
+    let others = small.unwrap_or_default().into_iter();
+    let others = others.filter(|name| !stated.iter().any(|one| one.name == name));
+    rows.extend(others.map(|name| format!("{}small widths only |\n", begin(&name))));
+    rows
+}
+
+/// How a property is proved, or how far.
+fn by(entry: &Entry, concluded: &Concluded<Violation>) -> String {
+    let helper = if concluded.is_helper {
+        "; a helper"
+    } else {
+        ""
+    };
+    match &concluded.conclusion {
+        // The clauses depend on the order of the search.
+        Conclusion::Proof {
+            by: By::Search { .. },
+            ..
+        } => format!("search{helper}"),
+        Conclusion::Proof { by, .. } => format!("{by}{helper}"),
+        Conclusion::Open { .. } => "open".to_owned(),
+        Conclusion::TooLarge => {
+            let narrower = entry.narrower(&[], &concluded.property, LIMIT);
+            let widths = narrower.into_iter().flatten();
+            let widths: Vec<_> = widths
+                .map(|(key, bits)| format!("{key} = {bits} bits"))
+                .collect();
+            match widths.is_empty() {
+                true => "too large".to_owned(),
+                false => format!("too large; proved at {}", widths.join(", ")),
+            }
+        }
+        Conclusion::Refuted(found) => panic!("{}: {found}", entry.name),
+    }
+}
+
+/// A helper or an assumption that is renamed, and a property that has gone, make the note wrong: the
+/// row is looked for by its whole text.
+#[test]
+fn a_row_counts_for_its_own_property_only() {
+    let entry = motion_rtl::registry::find("unwrapper").expect("it is in the catalogue");
+    let rows = rows(entry, "");
+    assert!(!rows.is_empty());
+    // Rows that stand there are believed, but not those of another name.
+    let told = rows.concat().replace("every state", "hearsay");
+    let again = self::rows(entry, &told);
+    assert_eq!(again.len(), rows.len());
+    assert!(again.concat() == told, "{again:?}");
+    let renamed = told.replacen("| `unwrapper` | ", "| `unwrapper` | not ", 1);
+    assert_eq!(self::rows(entry, &renamed), rows);
+}
