@@ -156,13 +156,6 @@ impl Report {
                 let _ = writeln!(table, "  {invariant}");
             }
         }
-        if !self.too_wide.is_empty() {
-            let _ = writeln!(
-                table,
-                "too wide for exhaustion: {}",
-                self.too_wide.join(", ")
-            );
-        }
         let is_named = |row: &Row| self.asked.circuits.contains(&row.circuit);
         let named = self.rows.iter().filter(|row| is_named(row));
         let mut named: Vec<_> = named
@@ -173,6 +166,13 @@ impl Report {
         if !named.is_empty() {
             let named = named.join(" ");
             let _ = writeln!(table, "at full width: motion-rtl check {named} --full");
+        }
+        if !self.too_wide.is_empty() {
+            let _ = writeln!(
+                table,
+                "too wide for exhaustion: {}",
+                self.too_wide.join(", ")
+            );
         }
         if self.shard.of > 1 {
             let _ = writeln!(table, "part {} of {}", self.shard.part, self.shard.of);
