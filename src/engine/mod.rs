@@ -30,6 +30,7 @@ mod value;
 
 pub use flat::EngineError;
 pub(crate) use flat::{Flat, Id, Op, Place, Port};
+pub(crate) use flatten::Statement;
 pub use input::InputError;
 pub(crate) use layout::Spot;
 pub use played::Inputs;

@@ -3,7 +3,7 @@
 use super::Beside;
 use super::beside::scope;
 use super::ports::Ports;
-use crate::engine::{Engine, EngineError, Flat, Program, Watch, ports_out};
+use crate::engine::{Engine, EngineError, Flat, Program, Statement, Watch, ports_out};
 use crate::hdl::{
     Circuit, Declarations, Record, Shapes, Source, declarations, elaborate, with_inputs,
 };
@@ -150,6 +150,20 @@ impl Elaborated {
     /// Returns the circuit as one flat netlist.
     pub(crate) fn flat(&self) -> &Flat {
         &self.flat
+    }
+
+    /// Returns the circuit with the statements of its parts as properties too, in this order: see
+    /// [`Flat::with_parts`].
+    pub(crate) fn with_parts(&self) -> Result<(Elaborated, Vec<Statement>), EngineError> {
+        let (flat, statements) = Flat::with_parts(&self.design)?;
+        let flat = Arc::new(flat);
+        Ok((
+            Elaborated {
+                flat,
+                ..self.clone()
+            },
+            statements,
+        ))
     }
 
     /// Returns the signals, in the order of the leaves of its [`engine`](Self::engine), with their

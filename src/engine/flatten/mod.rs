@@ -1,7 +1,13 @@
 //! Flattening: turns a design of modules into one netlist.
 
-use super::flat::{EngineError, Flat, Id, Instance, Memory, Node, Op, Place, Port, Register, mask};
-use crate::netlist::{self, Design, Kind, Module, Operator, Role, Shape, Value};
+mod leaves;
+mod operation;
+mod stated;
+
+use super::flat::{EngineError, Flat, Id, Instance, Memory, Node, Op, Port, Register, mask};
+use crate::netlist::{self, Design, Module, Role, Value};
+use operation::operation;
+pub(crate) use stated::Statement;
 use std::collections::HashMap;
 
 impl Flat {
@@ -12,31 +18,10 @@ impl Flat {
     /// makes: a node or an instance depends on itself, a word has no bits or more than 64, a
     /// register or net has no driver.
     pub fn of(design: &Design) -> Result<Flat, EngineError> {
-        let top = design
-            .modules
-            .len()
-            .checked_sub(1)
-            .ok_or(EngineError::Empty)?;
-        let mut flattening = Flattening {
-            design,
-            numbers: HashMap::new(),
-            words: HashMap::new(),
-            flat: Flat::default(),
-            parts: Vec::new(),
-        };
-        for setting in &design.settings {
-            match &setting.value {
-                Value::Number(number) => {
-                    flattening.numbers.insert(&setting.path, *number).is_some()
-                }
-                Value::Words(words) => flattening.words.insert(&setting.path, words).is_some(),
-            };
-        }
-        let whole = flattening.allocate(top, Vec::new())?;
-        let inputs = flattening.ports();
-        flattening.parts[whole].inputs = inputs;
-        flattening.settle(whole)?;
-        flattening.leaves(whole)?;
+        let mut flattening = Flattening::of(design)?;
+        let assertions: Vec<_> = flattening.parts[0].module.assertions.iter().collect();
+        flattening.flat.properties = flattening.stated(0, &assertions)?;
+        flattening.leaves(0)?;
         Ok(flattening.flat)
     }
 }
@@ -47,6 +32,7 @@ struct Flattening<'d> {
     numbers: HashMap<&'d [String], u64>,
     words: HashMap<&'d [String], &'d [u64]>,
     flat: Flat,
+    /// Instances; the outermost is first.
     parts: Vec<Part<'d>>,
 }
 
@@ -64,19 +50,6 @@ struct Part<'d> {
     /// Nodes made so far.
     map: Vec<Id>,
     state: State,
-}
-
-/// Nodes of a part's properties under construction.
-struct Stated {
-    part: usize,
-    /// Nodes made so far: of this tick, and of signals after its edge.
-    made: [Vec<Option<Id>>; 2],
-}
-
-impl Stated {
-    fn at(&self, (step, id): (bool, netlist::Id)) -> Option<Id> {
-        self.made[usize::from(step)].get(id).copied().flatten()
-    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -112,6 +85,35 @@ fn width(module: &Module, what: impl Into<String>, width: usize) -> Result<u8, E
 }
 
 impl<'d> Flattening<'d> {
+    /// Makes all nodes but those of properties.
+    fn of(design: &'d Design) -> Result<Self, EngineError> {
+        let top = design
+            .modules
+            .len()
+            .checked_sub(1)
+            .ok_or(EngineError::Empty)?;
+        let mut flattening = Flattening {
+            design,
+            numbers: HashMap::new(),
+            words: HashMap::new(),
+            flat: Flat::default(),
+            parts: Vec::new(),
+        };
+        for setting in &design.settings {
+            match &setting.value {
+                Value::Number(number) => {
+                    flattening.numbers.insert(&setting.path, *number).is_some()
+                }
+                Value::Words(words) => flattening.words.insert(&setting.path, words).is_some(),
+            };
+        }
+        let whole = flattening.allocate(top, Vec::new())?;
+        let inputs = flattening.ports();
+        flattening.parts[whole].inputs = inputs;
+        flattening.settle(whole)?;
+        Ok(flattening)
+    }
+
     /// Allocates registers and memories of a module and of all modules inside it.
     fn allocate(&mut self, module: usize, path: Vec<String>) -> Result<usize, EngineError> {
         let module = self.design.modules.get(module).ok_or(EngineError::Empty)?;
@@ -229,7 +231,7 @@ impl<'d> Flattening<'d> {
         }
         self.drive(part)?;
         self.parts[part].state = State::Settled;
-        self.properties(part)
+        Ok(())
     }
 
     /// Returns the input ports of a part, by signal index.
@@ -378,202 +380,6 @@ impl<'d> Flattening<'d> {
         Ok(())
     }
 
-    /// Adds the properties of the outermost circuit.
-    fn properties(&mut self, part: usize) -> Result<(), EngineError> {
-        if part == 0 {
-            self.flat.properties = self.stated(0)?;
-        }
-        Ok(())
-    }
-
-    /// Makes the properties of a settled part, in terms of the tick before the edge: a register
-    /// after the edge is the node that it takes.
-    fn stated(&mut self, part: usize) -> Result<Vec<Id>, EngineError> {
-        let module = self.parts[part].module;
-        let mut stated = Stated {
-            part,
-            made: [(); 2].map(|()| vec![None; module.nodes.len()]),
-        };
-        let assertions = module.assertions.iter();
-        assertions
-            .map(|assertion| self.state(&mut stated, assertion.step, assertion.holds))
-            .collect()
-    }
-
-    /// Makes a node of a property, and those that it needs; where it spans a `step`, of signals
-    /// after the edge.
-    fn state(
-        &mut self,
-        stated: &mut Stated,
-        step: bool,
-        id: netlist::Id,
-    ) -> Result<Id, EngineError> {
-        // A list of nodes to make, as properties may be deep.
-        let mut open = vec![(step, id)];
-        let mut made = None;
-        while let Some(&(step, id)) = open.last() {
-            made = stated.at((step, id));
-            if made.is_none() {
-                let before = open.len();
-                for needed in self.needed(stated.part, step, id)? {
-                    if stated.at(needed).is_none() {
-                        open.push(needed);
-                    }
-                }
-                if open.len() > before {
-                    continue;
-                }
-                made = Some(self.state_one(stated, step, id)?);
-                stated.made[usize::from(step)][id] = made;
-            }
-            open.pop();
-        }
-        made.ok_or_else(|| circle(self.parts[stated.part].module, id))
-    }
-
-    /// Returns the nodes that have to be made before a node of a property.
-    fn needed(
-        &self,
-        part: usize,
-        step: bool,
-        id: netlist::Id,
-    ) -> Result<Vec<(bool, netlist::Id)>, EngineError> {
-        use netlist::Node;
-        let module = self.parts[part].module;
-        let circle = || circle(module, id);
-        let (node, _) = *module.nodes.get(id).ok_or_else(circle)?;
-        let step = match node {
-            _ if !step && id < module.logic => return Ok(Vec::new()),
-            Node::Past(_) => false,
-            _ => step,
-        };
-        let needed: Vec<_> = node.operands().map(|operand| (step, operand)).collect();
-        match needed.iter().all(|(_, operand)| *operand < id) {
-            true => Ok(needed),
-            false => Err(circle()),
-        }
-    }
-
-    /// Makes a node of a property whose operands are made.
-    fn state_one(
-        &mut self,
-        stated: &Stated,
-        step: bool,
-        id: netlist::Id,
-    ) -> Result<Id, EngineError> {
-        use netlist::Node;
-        let part = stated.part;
-        let module = self.parts[part].module;
-        let circle = || circle(module, id);
-        let (node, shape) = module.nodes[id];
-        let width = shape.width as u8;
-        let of = |step: bool, id| stated.at((step, id)).ok_or_else(circle);
-        Ok(match node {
-            _ if !step && id < module.logic => self.made(part, id)?,
-            Node::Past(a) => of(false, a)?,
-            Node::Signal(signal) if step => match self.register(part, signal) {
-                Some(register) => self.flat.registers[register as usize].next,
-                None => self.node(part, id, &self.input_ports(part))?,
-            },
-            Node::Constant(bits) => self.add(part, Op::Constant(bits & mask(width)), width),
-            Node::Signal(_) | Node::Parameter(_) | Node::Port { .. } => {
-                self.node(part, id, &self.input_ports(part))?
-            }
-            Node::Read(memory, a) => {
-                let memory = self.memory(part, memory).ok_or_else(circle)?;
-                let address = of(step, a)?;
-                match step {
-                    true => self.read_after(part, memory, address),
-                    false => self.add(part, Op::Read(memory, address), width),
-                }
-            }
-            node => {
-                let before = |id: netlist::Id| module.nodes[id].1;
-                let op = operation(node, shape, before, |id| of(step, id))?;
-                self.add_unless_same(part, op, width)
-            }
-        })
-    }
-
-    /// Makes the word that a memory has at an address after the edge.
-    fn read_after(&mut self, part: usize, memory: u32, address: Id) -> Id {
-        let of = &self.flat.memories[memory as usize];
-        let (width, port, words) = (of.width, of.port, of.contents.len() as u64);
-        let held = self.add(part, Op::Read(memory, address), width);
-        let wide = self.flat.node(address).width;
-        match port {
-            Port::Rom => held,
-            Port::Ram {
-                enable,
-                address: at,
-                data,
-            } => {
-                let here = self.add(part, Op::Equal(address, at), 1);
-                let mut here = self.add(part, Op::And(enable, here), 1);
-                if words <= mask(wide) {
-                    let end = self.add(part, Op::Constant(words), wide);
-                    let inside = self.add(part, Op::Below(address, end), 1);
-                    here = self.add(part, Op::And(here, inside), 1);
-                }
-                self.add(part, Op::Mux(here, data, held), width)
-            }
-            Port::Shift { enable, data } => {
-                let one = self.add(part, Op::Constant(1), wide);
-                let zero = self.add(part, Op::Constant(0), wide);
-                let before = self.add(part, Op::Subtract(address, one), wide);
-                let moved = self.add(part, Op::Read(memory, before), width);
-                let first = self.add(part, Op::Equal(address, zero), 1);
-                let mut moved = self.add(part, Op::Mux(first, data, moved), width);
-                if words <= mask(wide) {
-                    // Past the last stage stays zero.
-                    let end = self.add(part, Op::Constant(words), wide);
-                    let inside = self.add(part, Op::Below(address, end), 1);
-                    moved = self.add(part, Op::Mux(inside, moved, held), width);
-                }
-                self.add(part, Op::Mux(enable, moved, held), width)
-            }
-        }
-    }
-
-    /// Sets the places of the leaves of a walk over the outermost circuit.
-    fn leaves(&mut self, whole: usize) -> Result<(), EngineError> {
-        let module = self.parts[whole].module;
-        let inputs = (0..self.flat.inputs.len() as u32).map(Place::Input);
-        self.flat.leaves = inputs.collect();
-        self.flat.parts[0] = self.flat.leaves.len();
-        for register in module.register_leaves() {
-            match register {
-                netlist::Register::Signal(signal) => {
-                    let missing = || unsettled(module, &format!("signal {signal}"));
-                    let register = self.register(whole, signal).ok_or_else(missing)?;
-                    self.flat.leaves.push(Place::Register(register));
-                }
-                netlist::Register::Memory(memory) => {
-                    let missing = || unsettled(module, &format!("memory {memory}"));
-                    let memory = self.memory(whole, memory).ok_or_else(missing)?;
-                    let words = self.flat.memories[memory as usize].contents.len() as u32;
-                    let words = (0..words).map(|word| Place::Word(memory, word));
-                    self.flat.leaves.extend(words);
-                }
-            }
-        }
-        self.flat.parts[1] = self.flat.leaves.len();
-        for leaf in 0..module.net_leaves() {
-            let node = self.net(whole, leaf)?;
-            self.flat.leaves.push(Place::Node(node));
-        }
-        for place in &mut self.flat.leaves {
-            if let Place::Node(id) = *place {
-                *place = match self.flat.nodes[id as usize].op {
-                    Op::Input(input) => Place::Input(input),
-                    Op::Register(register) => Place::Register(register),
-                    _ => Place::Node(id),
-                };
-            }
-        }
-        Ok(())
-    }
-
     /// Returns the memory of a part, or of an instance inside it; inner memories come in the order
     /// of the registers.
     fn memory(&self, part: usize, memory: usize) -> Option<u32> {
@@ -586,50 +392,4 @@ impl<'d> Flattening<'d> {
             }
         }
     }
-}
-
-/// Returns the operation of a node that depends on its operands only.
-fn operation(
-    node: netlist::Node,
-    shape: Shape,
-    before: impl Fn(netlist::Id) -> Shape,
-    of: impl Fn(netlist::Id) -> Result<Id, EngineError>,
-) -> Result<Op, EngineError> {
-    use netlist::Node;
-    let signed = |id| before(id).kind == Kind::Signed;
-    let bits = |bits: usize| bits.min(64) as u8;
-    Ok(match node {
-        Node::Not(a) => Op::Not(of(a)?),
-        Node::Negate(a) => Op::Negate(of(a)?),
-        Node::Binary(operator, a, b) => {
-            let (x, y) = (of(a)?, of(b)?);
-            match operator {
-                Operator::Add => Op::Add(x, y),
-                Operator::Subtract => Op::Subtract(x, y),
-                Operator::Multiply => Op::Multiply(x, y),
-                Operator::And => Op::And(x, y),
-                Operator::Or => Op::Or(x, y),
-                Operator::Xor => Op::Xor(x, y),
-                Operator::Equal => Op::Equal(x, y),
-                Operator::Below if signed(a) => Op::BelowSigned(x, y),
-                Operator::Below => Op::Below(x, y),
-            }
-        }
-        Node::Mux(choose, then, other) => Op::Mux(of(choose)?, of(then)?, of(other)?),
-        Node::ShiftLeft(a, by) => Op::ShiftLeft(of(a)?, bits(by)),
-        Node::ShiftRight(a, by) if shape.kind == Kind::Signed => {
-            Op::ShiftRightSigned(of(a)?, bits(by))
-        }
-        Node::ShiftRight(a, by) => Op::ShiftRight(of(a)?, bits(by)),
-        Node::Slice(a, low) => Op::Slice(of(a)?, bits(low)),
-        Node::Extend(a) if signed(a) => Op::ExtendSigned(of(a)?),
-        Node::Extend(a) => Op::Extend(of(a)?),
-        Node::Join(a, b) => Op::Join(of(a)?, of(b)?),
-        Node::Cast(a) | Node::Past(a) => Op::Slice(of(a)?, 0),
-        Node::Constant(bits) => Op::Constant(bits),
-        // Other nodes need the parts, and are made there.
-        Node::Parameter(_) | Node::Signal(_) | Node::Port { .. } | Node::Read(..) => {
-            Op::Constant(0)
-        }
-    })
 }
