@@ -13,9 +13,11 @@
 
 use super::rotation_row::ROWS;
 use super::{BlendRow, BlendWeight, Widths, blend_row, blend_weight};
+use crate::circuits::blocks::difference_column::is_modulus;
 use crate::circuits::blocks::{
     CoefficientControl, DifferenceColumn, RecordWord, coefficient_control, difference_column,
 };
+use crate::hdl::Opened;
 use crate::prelude::*;
 
 /// Number of the record word that holds h at the start of a segment; 1/M follows, as whole and
@@ -149,4 +151,37 @@ impl Circuit for BlendPoint {
         let done = weight.q.done;
         (Net { x, y, z, done }, Nothing)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let i = &now.i;
+        vec![
+            Property::given(
+                "the modulus is from 1 to half of its range when step is high",
+                !i.step | is_modulus(i.modulus),
+            ),
+            Property::given(
+                "the parts of both columns are less than the modulus when step is high",
+                !i.step | are_parts(i.modulus, &now.p),
+            ),
+            Property::given(
+                "load and step are never high together",
+                !(i.record.load & i.step),
+            ),
+        ]
+    }
+}
+
+/// High if the columns hold parts of a modulus.
+fn are_parts(modulus: U, p: &Parts<Open>) -> Bit {
+    let columns = [&p.share, &p.share_step];
+    Bit::all(columns.map(|column| column.q.part.below(modulus)))
+}
+
+/// High if the block keeps its assumptions about modulus and parts, each on its own.
+pub(crate) fn of_record(point: &Opened<BlendPoint>) -> [Bit; 2] {
+    let (step, modulus) = (point.i.step, point.i.modulus);
+    [
+        !step | is_modulus(modulus),
+        !step | are_parts(modulus, &point.p),
+    ]
 }

@@ -20,6 +20,7 @@ use super::rotation_row::ROWS;
 use super::sine_words::FINE;
 use super::*;
 use crate::circuits::blocks::cordic_state::GAIN;
+use crate::circuits::blocks::record_sequencer::{given_of_records, sends_in_fetch};
 use crate::circuits::blocks::{
     CoefficientControl, Cordic, DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer,
     coefficient_control, cordic, difference_engine, enable_counter, record_sequencer,
@@ -275,5 +276,12 @@ impl Circuit for Conventional {
             present: sequencer.w.present,
         });
         (ports_out(&commands, &memory, &sequencer), Nothing)
+    }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let p = &now.p;
+        let mut all = given_of_records([difference_engine::of_record(&p.engine)]).to_vec();
+        all.push(sends_in_fetch(&p.sequencer, &p.memory));
+        all
     }
 }

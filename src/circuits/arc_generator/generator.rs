@@ -14,6 +14,7 @@ use super::{
     position_command, rotation,
 };
 use crate::circuits::blocks::record_memory::ARC;
+use crate::circuits::blocks::record_sequencer::{given_of_records, sends_in_fetch};
 use crate::circuits::blocks::{
     DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, RecordWrite, difference_engine,
     enable_counter, record_memory, record_sequencer,
@@ -269,4 +270,18 @@ impl Circuit for ArcGenerator {
         });
         (ports_out(&commands, &memory, &sequencer), Nothing)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let p = &now.p;
+        let mut all = given_of_records(of_records(p)).to_vec();
+        all.push(sends_in_fetch(&p.sequencer, &p.memory));
+        all
+    }
+}
+
+/// Assumptions of the blocks that get the words of records.
+pub(crate) fn of_records(p: &Parts<Open>) -> Vec<[Bit; 2]> {
+    let points = p.blend_point.iter().map(blend_point::of_record);
+    let engines = p.engines.iter().map(difference_engine::of_record);
+    points.chain(engines).collect()
 }

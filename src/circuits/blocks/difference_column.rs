@@ -56,13 +56,13 @@ signals! { for DifferenceColumn as c;
     pub struct In {
         /// Word of a record.
         pub record: RecordWord(&c.widths.data) as Flat,
-        /// Modulus of the parts: 1 to 2^(F − 1).
+        /// Modulus of the parts: 1 to 2^(F − 1) when `step` is high.
         pub modulus: U(c.widths.part),
         /// Adds the column below. Not allowed together with `load`.
         pub step: Bit,
         /// Whole of the column below.
         pub by_whole: I(c.widths.whole),
-        /// Part of the column below; less than the modulus.
+        /// Part of the column below; less than the modulus when `step` is high.
         pub by_part: U(c.widths.part),
     }
     /// Flip-flops.
@@ -139,9 +139,9 @@ impl Circuit for DifferenceColumn {
                 !i.step | i.record.load | self.adds(i, q, next),
             ),
             Property::step(
-                "the part stays below the modulus",
+                "after a step, the part is below the modulus",
                 &["part"],
-                next.part.below(i.modulus) | w.load_part,
+                !i.step | i.record.load | next.part.below(i.modulus),
             ),
             Property::step(
                 "the column loads its own words and no others",
@@ -158,24 +158,31 @@ impl Circuit for DifferenceColumn {
     }
 }
 
+/// High if a word is from 1 to half of its range.
+pub(crate) fn is_modulus(word: U) -> Bit {
+    let half = U::new(1 << (word.width() - 1), word.width());
+    !word.is_zero() & !half.below(word)
+}
+
 impl DifferenceColumn {
     /// Statements about the inputs that the circuits around a column keep.
     fn given(&self, i: &In, part: U) -> [Property; 4] {
-        let width = self.widths.part;
-        let is_modulus = !i.modulus.is_zero() & !U::new(1 << (width - 1), width).below(i.modulus);
         [
-            Property::given("the modulus is from 1 to half of its range", is_modulus),
             Property::given(
-                "the part of the column below is less than the modulus",
-                i.by_part.below(i.modulus),
+                "the modulus is from 1 to half of its range when step is high",
+                !i.step | is_modulus(i.modulus),
+            ),
+            Property::given(
+                "the part of the column below is less than the modulus when step is high",
+                !i.step | i.by_part.below(i.modulus),
             ),
             Property::given(
                 "load and step are never high together",
                 !(i.record.load & i.step),
             ),
             Property::given(
-                "the modulus is greater than the part that the column holds",
-                part.below(i.modulus),
+                "the part that the column holds is less than the modulus when step is high",
+                !i.step | part.below(i.modulus),
             ),
         ]
     }

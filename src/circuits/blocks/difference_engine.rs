@@ -14,8 +14,9 @@
 //! sample takes four additions and no multiplication. With the first difference alone, the
 //! polynomial is a straight line.
 
-use super::difference_column::{self, DifferenceColumn, Widths};
+use super::difference_column::{self, DifferenceColumn, Widths, is_modulus};
 use super::record_memory::RecordWord;
+use crate::hdl::Opened;
 use crate::prelude::*;
 
 /// Difference engine of a coordinate.
@@ -107,4 +108,37 @@ impl Circuit for DifferenceEngine {
         let nearest = value.w.nearest;
         (Net { nearest }, Nothing)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let i = &now.i;
+        vec![
+            Property::given(
+                "the modulus is from 1 to half of its range when step is high",
+                !i.step | is_modulus(i.modulus),
+            ),
+            Property::given(
+                "the parts of all columns are less than the modulus when step is high",
+                !i.step | are_parts(i.modulus, &now.p),
+            ),
+            Property::given(
+                "load and step are never high together",
+                !(i.record.load & i.step),
+            ),
+        ]
+    }
+}
+
+/// High if the columns hold parts of a modulus.
+fn are_parts(modulus: U, p: &Parts<Open>) -> Bit {
+    let columns = [&p.value, &p.d1, &p.d2, &p.d3, &p.d4];
+    Bit::all(columns.map(|column| column.q.part.below(modulus)))
+}
+
+/// High if an engine keeps its assumptions about modulus and parts, each on its own.
+pub(crate) fn of_record(engine: &Opened<DifferenceEngine>) -> [Bit; 2] {
+    let (step, modulus) = (engine.i.step, engine.i.modulus);
+    [
+        !step | is_modulus(modulus),
+        !step | are_parts(modulus, &engine.p),
+    ]
 }

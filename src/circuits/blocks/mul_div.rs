@@ -18,8 +18,8 @@ use crate::prelude::*;
 /// Names of the states.
 const STATES: &[&str] = &["idle", "multiply", "divide"];
 const IDLE: u64 = 0;
-const MULTIPLY: u64 = 1;
-const DIVIDE: u64 = 2;
+pub(crate) const MULTIPLY: u64 = 1;
+pub(crate) const DIVIDE: u64 = 2;
 
 /// Multiplier-divider of words of Q = `word` bits by a multiplier of M = `multiplier` bits.
 ///
@@ -64,17 +64,17 @@ signals! { for MulDiv as c;
     /// Flip-flops.
     pub struct Reg {
         /// State of the sequence.
-        state: U(2) as States(STATES) = 0,
+        pub(crate) state: U(2) as States(STATES) = 0,
         /// Ticks since the state began.
-        count: U(6) = 0,
+        pub(crate) count: U(6) = 0,
         /// `product_only` of the running calculation.
-        undivided: Bit = 0,
+        pub(crate) undivided: Bit = 0,
         /// First factor times the weight of the next multiplier bit.
-        shifted: U(c.word) = 0,
+        pub(crate) shifted: U(c.word) = 0,
         /// Remaining bits of the multiplier.
-        factor: U(c.multiplier) = 0,
+        pub(crate) factor: U(c.multiplier) = 0,
         /// Divisor of the running calculation.
-        by: U(c.word) = 0,
+        pub(crate) by: U(c.word) = 0,
         /// Product so far; in the division, dividend bits above and quotient bits below; at the end
         /// the result.
         pub quotient: U(c.word) = 0,
@@ -201,20 +201,33 @@ impl Circuit for MulDiv {
 impl MulDiv {
     /// High if the product plus the addend is below 2^Q.
     fn fits(&self, i: &In) -> Bit {
+        let zero = U::new(0, self.word);
+        // The order does not matter for the sum. But a proof sees at once that there is no carry
+        // where an addend is short, or a product.
+        let (_, addend_first) = self.sum(i, i.addend);
+        let (product, fits) = self.sum(i, zero);
+        addend_first | (fits & !self.carry(product, i.addend))
+    }
+
+    /// Returns the product plus a word, and high if this is below 2^Q.
+    fn sum(&self, i: &In, mut sum: U) -> (U, Bit) {
         // The first factor times 2^k, and high while it has lost no bit.
         let (mut term, mut whole) = (i.multiplicand, Bit::high());
-        let (mut sum, mut fits) = (i.addend, Bit::high());
+        let mut fits = Bit::high();
         for k in 0..self.multiplier {
-            let added = sum + term;
-            // A sum that wraps is below its terms.
-            let kept = whole & !added.below(term);
             let is_added = i.multiplier.bit(k);
-            fits = fits & (kept | !is_added);
-            sum = is_added.mux(added, sum);
+            fits = fits & ((whole & !self.carry(sum, term)) | !is_added);
+            sum = is_added.mux(sum + term, sum);
             whole = whole & !term.bit(self.word - 1);
             term = term.shift_left(1);
         }
-        fits
+        (sum, fits)
+    }
+
+    /// High if a sum of two words has a carry: a word of 64 bits has no room for it.
+    fn carry(&self, a: U, b: U) -> Bit {
+        let [x, y, sum] = [a, b, a + b].map(|word| word.bit(self.word - 1));
+        (x & y) | ((x | y) & !sum)
     }
 
     /// High if the edge appends the next dividend bit to the remainder, and the bit of its division

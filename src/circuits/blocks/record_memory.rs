@@ -75,7 +75,7 @@ signals! { for RecordMemory as c;
         /// All records are in use.
         full: Bit = 0,
         /// Words of a record are being read.
-        reading: Bit = 0,
+        pub(crate) reading: Bit = 0,
         /// Number of the word being read.
         read_word: U(5) = 0,
         /// `word` and `data` hold a word of a record.

@@ -19,7 +19,8 @@
 //! first. The first point of a path is the start of its first segment. A segment of 0 samples
 //! outputs its starting point.
 
-use super::record_memory::{ARC, KINDS, RecordWord};
+use super::record_memory::{ARC, KINDS, RECORD, RecordMemory, RecordWord};
+use crate::hdl::Opened;
 use crate::prelude::*;
 
 /// Names of the states.
@@ -193,6 +194,47 @@ impl Circuit for RecordSequencer {
         ));
         all
     }
+}
+
+/// Assumptions about the records of a path: each block that gets their words needs a modulus, and
+/// parts that are less.
+pub(crate) fn given_of_records(blocks: impl IntoIterator<Item = [Bit; 2]>) -> [Property; 2] {
+    let (modulus, parts): (Vec<_>, Vec<_>) = blocks
+        .into_iter()
+        .map(|[modulus, parts]| (modulus, parts))
+        .unzip();
+    [
+        Property::given(
+            "the modulus of a record is from 1 to half of its range",
+            Bit::all(modulus),
+        ),
+        Property::given(
+            "the parts of a record are less than its modulus",
+            Bit::all(parts),
+        ),
+    ]
+}
+
+/// Helper of a circuit with sequencer and memory: a block steps in other states than that in which a
+/// record is sent to it.
+pub(crate) fn sends_in_fetch(
+    sequencer: &Opened<RecordSequencer>,
+    memory: &Opened<RecordMemory>,
+) -> Property {
+    let (fetches, q, take) = (sequencer.q.state.equals(FETCH), &memory.q, sequencer.q.take);
+    let sends = q.reading | q.load;
+    let over = q.load & q.word.equals(RECORD as u64 - 1);
+    Property::helper(
+        "a record is sent in the state fetch, once",
+        &["sequencer.state"],
+        Bit::all([
+            (take | sends | q.loaded).implies(fetches),
+            !(take & (sends | q.loaded)),
+            !(q.loaded & sends),
+            !(over & q.reading),
+            !(sequencer.q.rotate & fetches),
+        ]),
+    )
 }
 
 impl RecordSequencer {

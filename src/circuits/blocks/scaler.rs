@@ -48,11 +48,11 @@ signals! { for Scaler as c;
     /// Flip-flops.
     pub struct Reg {
         /// A product is being computed.
-        busy: Bit = 0,
+        pub(crate) busy: Bit = 0,
         /// Index of the current gain bit, lowest first.
         bit_index: U(6) = 0,
         /// Value that is being scaled.
-        factor: U(c.value) = 0,
+        pub(crate) factor: U(c.value) = 0,
         /// Remaining bits of the gain.
         bits: U(c.gain) as Hex = 0,
         /// Partial product, scaled to the weight of the next bit; at the end the result.

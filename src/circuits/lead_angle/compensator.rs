@@ -22,9 +22,10 @@
 use super::detector::{Detected, DetectorPart, DetectorSource};
 use super::grid::{self, Grid, GridPart};
 use super::lead_source::{LeadFrom, LeadIn, LeadPart, LeadSource};
+use super::step_sequencer::{BRAKE, CORRECT};
 use super::{
     Comparator, CompletionDetector, Correction, Detector, Form, LeadPlacement, Placement,
-    StepSequencer, TargetSetter, TimeData, TouchProbe, Variant, Widths, comparator,
+    StepSequencer, TargetSetter, TimeData, TouchProbe, Variant, Widths, codes, comparator,
     completion_detector, correction, placement, step_sequencer, target_setter, time_data,
     touch_probe,
 };
@@ -223,6 +224,14 @@ signals! { for Compensator as c;
     }
 }
 
+impl Compensator {
+    /// High if a lead time is at most the largest code.
+    pub(crate) fn is_code(&self, time: U) -> Bit {
+        let largest = codes::largest(self.widths.stages);
+        !U::new(largest, time.width()).below(time)
+    }
+}
+
 impl Circuit for Compensator {
     const NAME: &'static str = "compensator";
     const ABOUT: &'static str = "lead-angle compensator that learns its lead times";
@@ -358,5 +367,32 @@ impl Circuit for Compensator {
             carrier,
         };
         (net, Nothing)
+    }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (p, time) = (&now.p, now.w.lead_time);
+        let state = p.sequencer.q.state;
+        let divides = p.correction.p.arithmetic.q.dividing;
+        let corrects = state.equals(CORRECT) & !time.is_zero();
+        let completes = p.completion.q.complete.implies(state.equals(BRAKE));
+        let mut all = vec![
+            Property::given(
+                "the lead time of a step is at most the largest code",
+                self.is_code(time),
+            ),
+            Property::helper(
+                "a division runs in the state correct only, and not for a lead time of 0",
+                &["sequencer.state", "lead_time"],
+                divides.implies(corrects) & completes,
+            ),
+        ];
+        if self.variant.detector == Detector::PhaseShift {
+            let turn = now.i.turn;
+            all.push(Property::given(
+                "turn is 0 or at least 4",
+                turn.is_zero() | !turn.shift_right(2).is_zero(),
+            ));
+        }
+        all
     }
 }

@@ -16,6 +16,7 @@
 use super::grid::{self, Grid, GridPart};
 use super::{CorrectionArithmetic, Division, ExactRelation, Refinement, Sign, StopError};
 use super::{correction_arithmetic, exact_relation, refinement, stop_error};
+use crate::circuits::blocks::mul_div::{DIVIDE, MULTIPLY};
 use crate::circuits::blocks::{MulDiv, mul_div};
 use crate::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -153,6 +154,49 @@ signals! { for Correction as c;
     }
 }
 
+impl Correction {
+    /// Helpers: a quotient has no more than half of the range of a word, because only a divisor of 1
+    /// leaves the dividend as it is.
+    fn bounds(&self, q: &mul_div::Reg<Open>) -> [Property; 3] {
+        let MulDiv { multiplier, word } = self.mul_div();
+        let (multiplies, divides) = (q.state.equals(MULTIPLY), q.state.equals(DIVIDE));
+        let time = multiplier - usize::from(self.second_order());
+        let highest = q.quotient.bit(word - 1);
+        let at = |count: usize, holds: Bit| q.count.equals(count as u64).implies(holds);
+        // The product before each bit of the multiplier.
+        let product = (0..multiplier).map(|count| {
+            let most = U::new(1 << (self.position - 1 + count), word);
+            let short =
+                q.shifted.is_zero() | q.factor.shift_right(time - count.min(time)).is_zero();
+            at(count, short & !most.below(q.shifted))
+        });
+        let less = q.quotient.is_zero() | q.quotient.below(q.shifted);
+        let alone = less & Bit::all(product);
+        let by_one = q.by.equals(1);
+        // The first bit of the quotient, where it is after each tick.
+        let bits = (1..word).map(|count| at(count, !q.quotient.bit(count - 1)));
+        let begins = at(0, q.remainder.is_zero() & !(by_one & highest));
+        [
+            Property::helper(
+                "a product that is divided by 1 is less than half of the range",
+                &["mul_div.quotient", "mul_div.shifted"],
+                (multiplies & by_one).implies(alone),
+            ),
+            Property::helper(
+                "a correction is never divided by 0, and its remainder begins with 0",
+                &["mul_div.by", "mul_div.remainder"],
+                (multiplies | divides).implies(!q.by.is_zero())
+                    & multiplies.implies(q.remainder.is_zero() & !q.undivided),
+            ),
+            Property::helper(
+                "the first bit of a quotient is low",
+                &["mul_div.quotient"],
+                divides.implies(begins & Bit::all(bits)) & q.done.implies(!highest),
+            ),
+        ]
+    }
+}
+
 impl Circuit for Correction {
     const NAME: &'static str = "correction";
     const ABOUT: &'static str = "learns the lead time of a step from the stop error";
@@ -246,5 +290,25 @@ impl Circuit for Correction {
             corrected: arithmetic.q.corrected,
         };
         (net, Nothing)
+    }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let time = now.i.lead_time;
+        let last = U::new(self.arithmetic().last(), time.width());
+        let is_code = !time.is_zero() & !last.below(time);
+        let mut all = vec![Property::given(
+            "lead_time is from 1 to the largest code while a division is running",
+            now.p.arithmetic.q.dividing.implies(is_code),
+        )];
+        if let Some(part) = &now.p.refinement {
+            let widest = U::new(1 << (self.position - 1), self.position);
+            all.push(Property::helper(
+                "the overrun of a refinement is a magnitude",
+                &["refinement.overrun_amount"],
+                !widest.below(part.q.overrun_amount),
+            ));
+        }
+        all.extend(self.bounds(&now.p.mul_div.q));
+        all
     }
 }

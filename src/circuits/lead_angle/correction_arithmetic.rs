@@ -41,7 +41,8 @@ impl CorrectionArithmetic {
         codes::time_width(self.stages)
     }
 
-    fn last(&self) -> u64 {
+    /// Largest code of a time.
+    pub(super) fn last(&self) -> u64 {
         codes::largest(self.stages)
     }
 }
@@ -71,7 +72,7 @@ signals! { for CorrectionArithmetic as c;
     /// Flip-flops.
     pub struct Reg {
         /// The divider is working on a correction.
-        dividing: Bit,
+        pub(super) dividing: Bit,
         /// Δtd is negative.
         pub negative: Bit,
         /// Δt2 in CKs, before it is put on the grid.

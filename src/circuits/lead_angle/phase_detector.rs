@@ -89,4 +89,12 @@ impl Circuit for PhaseDetector {
         };
         (net, Nothing)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let modulus = now.i.modulus;
+        vec![Property::given(
+            "modulus is 0 or at least 4",
+            modulus.is_zero() | !modulus.shift_right(2).is_zero(),
+        )]
+    }
 }

@@ -62,7 +62,7 @@ signals! { for Refinement as c;
         /// |d2| of the correction.
         error_amount: U(c.position) = 0,
         /// |d1| of the correction.
-        overrun_amount: U(c.position) = 0,
+        pub(super) overrun_amount: U(c.position) = 0,
         /// High for one tick: |Δtd| is valid at the divider.
         pub done: Bit = 0,
     }

@@ -42,8 +42,8 @@ const IDLE: u64 = 0;
 const LOAD: u64 = 1;
 const ARM: u64 = 2;
 const MOVE: u64 = 3;
-const BRAKE: u64 = 4;
-const CORRECT: u64 = 5;
+pub(super) const BRAKE: u64 = 4;
+pub(super) const CORRECT: u64 = 5;
 const REST: u64 = 6;
 
 signals! { for StepSequencer as c;
@@ -77,7 +77,7 @@ signals! { for StepSequencer as c;
     /// Flip-flops.
     pub struct Reg {
         /// State of the sequence.
-        state: U(3) as States(STATES) = 0,
+        pub(super) state: U(3) as States(STATES) = 0,
         /// CKs since the rest began.
         count: U(c.rest) = 0,
         /// Number of the running step, or of the next one.

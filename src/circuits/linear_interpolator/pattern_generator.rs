@@ -13,7 +13,9 @@
 //! Departures: see [`trapezoid`].
 
 pub use super::trapezoid::Cycle as In;
+use super::trapezoid::{PEAK, SCAN, TOTAL, WAITING};
 use super::{Trapezoid, trapezoid};
+use crate::circuits::blocks::mul_div::{DIVIDE, MULTIPLY};
 use crate::circuits::blocks::{MulDiv, mul_div};
 use crate::prelude::*;
 
@@ -113,5 +115,85 @@ impl Circuit for PatternGenerator {
             active: trapezoid.q.active,
         };
         (net, Nothing)
+    }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        self.helpers(&now.p.trapezoid.q, &now.p.mul_div.q).to_vec()
+    }
+}
+
+impl PatternGenerator {
+    /// Statements that the assumptions of the multiplier-divider need: no divisor is 0, and no sum
+    /// of weights has more than half of the range of a word.
+    fn helpers(&self, q: &trapezoid::Reg<Open>, running: &mul_div::Reg<Open>) -> [Property; 5] {
+        let is = |state: u64| q.state.equals(state);
+        let scans = is(WAITING) | is(SCAN);
+        let (position, time) = (self.position, self.time);
+        let some = |words: &[U]| Bit::all(words.iter().map(|word| !word.is_zero()));
+        let below = |word: U, bits: usize| word.shift_right(bits).is_zero();
+        let set = some(&[q.ramp_up, q.ramp_down]) & !q.speed_limit.is_zero();
+        let steady = (is(PEAK) | is(TOTAL)).implies(below(q.steady_scans, position - 1));
+        let peak = (is(TOTAL) | scans).implies(!q.peak.is_zero() & below(q.peak, 2 * time));
+        let widest = self.mul_div().word - 1;
+        let total = scans.implies(!q.total.is_zero() & below(q.total, widest));
+        let busy = !running.state.is_zero() | running.done;
+        let computes = q.under_way & !q.request;
+        let products = (computes & is(PEAK)).implies(self.product(running, time, time))
+            & (computes & is(TOTAL)).implies(self.product(running, position + 1, 2 * time));
+        let rests = running.remainder.is_zero() & !running.state.equals(DIVIDE);
+        let multiplies = running.state.equals(MULTIPLY);
+        let undivided = multiplies.implies(running.undivided);
+        [
+            Property::helper(
+                "a cycle has settings that are not 0, and without one nothing is requested",
+                &[
+                    "trapezoid.ramp_up",
+                    "trapezoid.ramp_down",
+                    "trapezoid.speed_limit",
+                ],
+                q.active.mux(set, !q.request)
+                    & !(q.active ^ !q.state.is_zero())
+                    & !U::new(SCAN, 3).below(q.state),
+            ),
+            Property::helper(
+                "steady scans, peak and sum of the weights are within their ranges",
+                &["trapezoid.peak", "trapezoid.total"],
+                steady & peak & total,
+            ),
+            Property::helper(
+                "the multiplier-divider is busy or shows done while an operation is under way",
+                &["trapezoid.under_way", "mul_div.done"],
+                !(q.under_way ^ busy),
+            ),
+            Property::helper(
+                "the products of peak and weights are of the sizes of their factors",
+                &["mul_div.quotient"],
+                products,
+            ),
+            Property::helper(
+                "nothing is divided by 0, and a remainder begins with 0",
+                &["mul_div.by"],
+                running.by.is_zero().implies(rests & undivided)
+                    & (!multiplies | running.remainder.is_zero()),
+            ),
+        ]
+    }
+
+    /// High if a product without a division is running or complete, of two factors of these numbers
+    /// of bits that are not 0.
+    fn product(&self, q: &mul_div::Reg<Open>, first: usize, second: usize) -> Bit {
+        let MulDiv { multiplier, word } = self.mul_div();
+        let below = |word: U, bits: usize| word.shift_right(bits).is_zero();
+        let ticks = (0..multiplier).map(|count| {
+            let used = count.min(second);
+            let short = below(q.shifted, (first + count).min(word))
+                & below(q.factor, second - used)
+                & below(q.quotient, first + used);
+            q.count.equals(count as u64).implies(short)
+        });
+        let left = !q.shifted.is_zero() & !(q.factor.is_zero() & q.quotient.is_zero());
+        let runs = q.state.equals(MULTIPLY) & q.undivided & left & Bit::all(ticks);
+        let complete = !q.quotient.is_zero() & below(q.quotient, first + second);
+        q.done.mux(q.state.is_zero() & complete, runs)
     }
 }

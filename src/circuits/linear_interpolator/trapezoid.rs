@@ -32,10 +32,10 @@ pub const STATES: &[&str] = &[
 ];
 const RAMPS: u64 = 1;
 const STEADY_SCANS: u64 = 2;
-const PEAK: u64 = 3;
-const TOTAL: u64 = 4;
-const WAITING: u64 = 5;
-const SCAN: u64 = 6;
+pub(super) const PEAK: u64 = 3;
+pub(super) const TOTAL: u64 = 4;
+pub(super) const WAITING: u64 = 5;
+pub(super) const SCAN: u64 = 6;
 
 /// Names of the phases.
 pub const PHASES: &[&str] = &["accelerate", "steady", "decelerate"];
@@ -105,29 +105,29 @@ signals! { for Trapezoid as c;
     /// Flip-flops.
     pub struct Reg {
         /// State of the sequence.
-        state: U(3) as States(STATES) = 0,
+        pub(super) state: U(3) as States(STATES) = 0,
         /// Phase of the next scan.
         phase: U(2) as States(PHASES) = 0,
         /// Starts the multiplier-divider.
-        request: Bit = 0,
+        pub(super) request: Bit = 0,
         /// The multiplier-divider is running, or shows `done`.
-        under_way: Bit = 0,
+        pub(super) under_way: Bit = 0,
         /// Magnitude |Δ| of the cycle's distance.
         length: U(c.position) = 0,
         /// Direction of the cycle; high counts down.
         backward: Bit = 0,
         /// V: greatest speed, in counts per scan with `T` fraction bits.
-        speed_limit: U(c.position) = 0,
+        pub(super) speed_limit: U(c.position) = 0,
         /// Ta: acceleration time in scans.
-        ramp_up: U(c.time) = 0,
+        pub(super) ramp_up: U(c.time) = 0,
         /// Td: deceleration time in scans.
-        ramp_down: U(c.time) = 0,
+        pub(super) ramp_down: U(c.time) = 0,
         /// Tc: remaining scans at steady speed.
-        steady_scans: U(c.position) = 0,
+        pub(super) steady_scans: U(c.position) = 0,
         /// Ta·Td: level of the steady speed.
-        peak: U(c.multiplier()) = 0,
+        pub(super) peak: U(c.multiplier()) = 0,
         /// W: sum of all weights.
-        total: U(c.word()) = 0,
+        pub(super) total: U(c.word()) = 0,
         /// Speed at the start of the next scan, in units of 2Δ/W per scan.
         level: U(c.multiplier()) as Analog = 0,
         /// x(n): position, in counts.

@@ -13,6 +13,8 @@ use super::enables::In as Rates;
 use super::ports::{Lift, Lines, Pulse, Trajectory};
 use super::{CommandJoin, Enables, command_join};
 use crate::circuits::arc_generator::generator::{self, ArcGenerator, Segments};
+use crate::circuits::blocks::difference_engine::of_record;
+use crate::circuits::blocks::record_sequencer::given_of_records;
 use crate::circuits::lead_angle::{Compensator, LeadForm, LeadFrom, Memory, compensator};
 use crate::circuits::linear_interpolator::LinearInterpolator;
 use crate::circuits::linear_interpolator::command_source::{self, Orders};
@@ -297,6 +299,17 @@ impl Circuit for Machine {
             fault: late | lost | arcs.w.starved | trajectory.w.starved | lines.w.refused,
         };
         (net, Nothing)
+    }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let mut blocks = generator::of_records(&now.p.arc_generator.p);
+        blocks.push(of_record(&now.p.trajectory_controller.p.profile));
+        let mut all = given_of_records(blocks).to_vec();
+        all.push(Property::given(
+            "the lead time of a step is at most the largest code",
+            self.lead_angle.is_code(now.p.lead_angle.w.lead_time),
+        ));
+        all
     }
 
     fn objection(&self) -> Option<String> {

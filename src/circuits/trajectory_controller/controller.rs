@@ -19,6 +19,7 @@ use super::{
     Rounding, Servo, Widths, controlled_axis, error_feedback, length_clamp, path_length,
     path_point, period_join, reference_model,
 };
+use crate::circuits::blocks::record_sequencer::{given_of_records, sends_in_fetch};
 use crate::circuits::blocks::{
     DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, RecordWrite, difference_column,
     difference_engine, enable_counter, record_memory, record_sequencer,
@@ -433,5 +434,12 @@ impl Circuit for TrajectoryController {
             starved: sequencer.q.starved,
         };
         (net, Nothing)
+    }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let p = &now.p;
+        let mut all = given_of_records([difference_engine::of_record(&p.profile)]).to_vec();
+        all.push(sends_in_fetch(&p.sequencer, &p.memory));
+        all
     }
 }

@@ -20,8 +20,8 @@ use crate::prelude::*;
 /// Names of the states.
 const STATES: &[&str] = &["idle", "first_gain", "second_gain"];
 const IDLE: u64 = 0;
-const FIRST: u64 = 1;
-const SECOND: u64 = 2;
+pub(super) const FIRST: u64 = 1;
+pub(super) const SECOND: u64 = 2;
 
 /// Widths of a reference model in bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -80,7 +80,7 @@ signals! { for ModelState as c;
     /// Flip-flops.
     pub struct Reg {
         /// State of the sequence.
-        state: U(2) as States(STATES) = 0,
+        pub(super) state: U(2) as States(STATES) = 0,
         /// Sign of the value being scaled: u − p, then K1(u − p) − v.
         negative: Bit = 0,
         /// p: position of the model, in guard units.

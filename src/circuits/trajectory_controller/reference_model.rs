@@ -12,7 +12,7 @@
 //! This circuit is also the servo response 51, 52 of an axis, the tangential servo response 50, and
 //! the model 12 inside a servo control 11. All of them agree to the bit (¶0030).
 
-use super::model_state::{ModelGains, ModelWidths};
+use super::model_state::{FIRST, ModelGains, ModelWidths, SECOND};
 use super::{ModelState, Rounding, model_state};
 use crate::circuits::blocks::{Scaler, scaler};
 use crate::prelude::*;
@@ -104,5 +104,27 @@ impl Circuit for ReferenceModel {
             busy: model.w.busy,
         };
         (net, Nothing)
+    }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (state, scaler) = (now.p.integrators.q.state, &now.p.scaler.q);
+        let first = state.equals(FIRST);
+        // A distance is at most half of the range of positions.
+        let widest = U::new(
+            1 << (self.widths.position + self.widths.gain - 2),
+            self.widths.product(),
+        );
+        vec![
+            Property::helper(
+                "the scaler works for the first and the second gain only",
+                &["scaler.busy", "integrators.state"],
+                !(scaler.busy | scaler.done) | first | state.equals(SECOND),
+            ),
+            Property::helper(
+                "the first gain scales a distance between two positions",
+                &["scaler.factor"],
+                first.implies(!widest.below(scaler.factor)),
+            ),
+        ]
     }
 }

@@ -11,7 +11,7 @@
 //! ```
 
 use super::model_state::ModelGains;
-use super::servo_arithmetic::{ServoGains, ServoWidths};
+use super::servo_arithmetic::{INERTIA, POSITION, ServoGains, ServoWidths};
 use super::{ReferenceModel, Rounding, ServoArithmetic, reference_model, servo_arithmetic};
 use crate::circuits::blocks::{QuadratureCounter, Scaler, quadrature_counter, scaler};
 use crate::prelude::*;
@@ -138,5 +138,31 @@ impl Circuit for Servo {
             lost: motor.q.lost,
         };
         (net, Nothing)
+    }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (q, scaler) = (&now.p.arithmetic.q, &now.p.scaler.q);
+        let multiplies = !q.state.is_zero() & !U::new(INERTIA, 3).below(q.state);
+        let (position, product) = (self.widths.position, self.widths.product());
+        let widest = U::new(1 << position, product);
+        vec![
+            Property::helper(
+                "the scaler works in the states with a product only",
+                &["scaler.busy", "arithmetic.state"],
+                !(scaler.busy | scaler.done) | multiplies,
+            ),
+            Property::helper(
+                "the position gain scales a distance between two positions",
+                &["scaler.factor"],
+                q.state
+                    .equals(POSITION)
+                    .implies(!widest.below(scaler.factor)),
+            ),
+            Property::helper(
+                "the speed error is at most the sum of its terms",
+                &["arithmetic.speed_error"],
+                q.speed_error.magnitude().below(1u64 << (position + 2)),
+            ),
+        ]
     }
 }

@@ -31,10 +31,10 @@ const STATES: &[&str] = &[
     "limit",
 ];
 const IDLE: u64 = 0;
-const POSITION: u64 = 1;
+pub(super) const POSITION: u64 = 1;
 const PROPORTIONAL: u64 = 2;
 const INTEGRAL: u64 = 3;
-const INERTIA: u64 = 4;
+pub(super) const INERTIA: u64 = 4;
 const LIMIT: u64 = 5;
 
 /// Bits of the sum below the torque's last.
@@ -128,7 +128,7 @@ signals! { for ServoArithmetic as c;
     /// Flip-flops.
     pub struct Reg {
         /// State of the sequence.
-        state: U(3) as States(STATES) = 0,
+        pub(super) state: U(3) as States(STATES) = 0,
         /// The value being scaled is negative.
         negative: Bit = 0,
         /// Feedback of the last step.
@@ -136,7 +136,7 @@ signals! { for ServoArithmetic as c;
         /// Move of the feedback in the last step, in counts.
         speed: I(c.widths.count) = 0,
         /// 28: speed error, in guard units per step.
-        speed_error: I(c.widths.product()) as Analog = 0,
+        pub(super) speed_error: I(c.widths.product()) as Analog = 0,
         /// Sum of the parts of 31 so far, with FINE bits below the torque's lowest bit.
         sum: I(c.widths.product()) as Analog = 0,
         /// Integral of 29, with FINE bits below the torque's lowest bit.
