@@ -26,12 +26,12 @@ fn usual(widths: &[(String, u64)]) -> u64 {
 }
 
 impl Entry {
-    /// Returns widths at which a property of the full circuit, some keys changed, is proved. All
-    /// widths are halved until it is; `limit` is the time for each property.
+    /// Returns widths at which a property of the full circuit, some keys changed, or of a part of
+    /// it is proved. All widths are halved until it is; `limit` is the time for each property.
     pub fn narrower(
         &self,
         pairs: &[Pair],
-        property: &str,
+        (part, property): (Option<&str>, &str),
         limit: Duration,
     ) -> Option<Vec<(String, u64)>> {
         let full = self.widths(Base::Full, pairs);
@@ -54,7 +54,9 @@ impl Entry {
             let Ok(concluded) = circuit.induct(limit) else {
                 continue;
             };
-            let mut concluded = concluded.iter().filter(|it| it.property == property);
+            let mut concluded = concluded
+                .iter()
+                .filter(|it| it.property == property && it.part.as_deref() == part);
             if concluded.any(|it| it.conclusion.is_proved()) {
                 return Some(widths);
             }

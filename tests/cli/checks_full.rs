@@ -97,6 +97,44 @@ fn results_at_full_width_are_printed_as_json() {
 }
 
 #[test]
+fn what_parts_assume_is_listed_with_their_paths() {
+    let bench = Bench::new();
+    let text = bench.succeed(&["check", "reference_model", "--full"]);
+    let value = "scaler: the value is below half of the range when start is high";
+    let mut rows = text
+        .lines()
+        .filter(|row| row.starts_with("reference_model"));
+    let row = rows.find(|row| row.ends_with(value));
+    let row = row.unwrap_or_else(|| panic!("{text}"));
+    assert!(
+        row.starts_with("reference_model        16-47 induction"),
+        "{row}"
+    );
+    let lemma = "  relies on: scaler: while busy is high, the partial product is at most the value";
+    assert!(text.lines().any(|row| row == lemma), "{text}");
+    let text = bench.succeed(&["check", "scaler", "--full"]);
+    let given = "the value is below half of the range when start is high";
+    let row = text.lines().find(|row| row.ends_with(given));
+    let row = row.unwrap_or_else(|| panic!("{text}"));
+    assert!(row.contains(" assumed "), "{row}");
+}
+
+#[test]
+fn what_parts_assume_is_in_the_json() {
+    let bench = Bench::new();
+    let report = bench.json(&["check", "integrator", "--full"]);
+    let rows = list(&report, "rows");
+    let parts: Vec<_> = rows.iter().map(|row| &row["part"]).collect();
+    assert_eq!(parts, [&json!("mul_div"); 2]);
+    assert!(rows.iter().all(|row| row["full_width_by"] == "every_state"));
+    let report = bench.json(&["check", "scaler", "--full"]);
+    let rows = list(&report, "rows");
+    assert!(rows.iter().all(|row| row["part"].is_null()));
+    let assumed = rows.iter().filter(|row| row["full_width_by"] == "assumed");
+    assert_eq!(assumed.count(), 1);
+}
+
+#[test]
 fn a_width_may_be_set() {
     let text = Bench::new().succeed(&["check", "enable_counter", "--full", "--width", "64"]);
     assert!(
@@ -110,8 +148,8 @@ fn what_full_width_does_not_go_with_is_refused() {
     let bench = Bench::new();
     for (arguments, text) in [
         (
-            &["check", "machine", "--full"][..],
-            "machine has no properties",
+            &["check", "arc_angle", "--full"][..],
+            "arc_angle has no properties",
         ),
         (
             &["check", "sync_stage", "--full", "--shard", "1/2"],

@@ -10,6 +10,9 @@ use std::time::Duration;
 pub struct Concluded<R> {
     /// Name of the property.
     pub property: String,
+    /// Path of the part of the circuit that relies on it; `None` for a property of the circuit
+    /// itself.
+    pub part: Option<String>,
     /// True if the property is there only to make the proofs of others possible.
     pub is_helper: bool,
     /// Conclusion.
@@ -22,11 +25,14 @@ pub struct Concluded<R> {
 #[derive(Debug, Clone)]
 #[must_use = "a counterexample is seen by looking at it"]
 pub enum Conclusion<R> {
+    /// The circuit relies on it; a circuit around this one has to keep it.
+    Assumed,
     /// The property holds in every tick of every run from power-on.
     Proof {
         /// Basis of the proof.
         by: By,
-        /// Names of the other properties on which the proof relies; all are proved.
+        /// Names of the other properties on which the proof relies; all are proved. The name of one
+        /// of a part begins with the path of the part.
         with: Vec<String>,
     },
     /// A run from power-on violates the property.
@@ -82,6 +88,7 @@ impl<R> Conclusion<R> {
     /// Converts the counterexample.
     pub(crate) fn map<S>(self, refuted: impl FnOnce(R) -> S) -> Conclusion<S> {
         match self {
+            Conclusion::Assumed => Conclusion::Assumed,
             Conclusion::Proof { by, with } => Conclusion::Proof { by, with },
             Conclusion::Refuted(found) => Conclusion::Refuted(refuted(found)),
             Conclusion::Open { from } => Conclusion::Open { from },

@@ -13,9 +13,17 @@
 //! Statements that are [given](crate::hdl::Property::given) are assumed in every tick; those that
 //! only [narrow](crate::hdl::Property::narrowing) an exhaustive search are not.
 //!
+//! What a part of the circuit is given is nothing that the whole may assume: it is an obligation,
+//! and is proved as a property of the whole, in the netlist of the whole. The properties of such
+//! parts are proved there too, by the same induction, and help the others. So nothing is circular:
+//! no statement counts in a tick unless it is proved, or belongs to the ticks before, in which the
+//! induction assumes all that it proves. A part that is given nothing itself may keep what is given
+//! to the parts inside it [alone](alone), with free inputs.
+//!
 //! Nothing is taken on trust: a solver of its own checks each proof again, and an engine replays
 //! each counterexample.
 
+mod alone;
 mod certify;
 mod clauses;
 mod conclusion;
@@ -32,10 +40,11 @@ pub use not_inductive::{Clause, NotInductive};
 
 use super::counterexample::Violation;
 use super::{Counterexample, Fault};
-use crate::engine::Watch;
+use crate::engine::{Statement, Watch};
 use crate::hdl::{self, Circuit};
 use crate::netlist::Claim;
 use crate::sim::Elaborated;
+use alone::Alone;
 use prover::{Basis, Found, Results, Task};
 use std::fmt;
 use std::time::Duration;
@@ -113,10 +122,11 @@ impl<C: Circuit> Induct<'_, C> {
         self
     }
 
-    /// Proves the properties; returns one result for each, in their order.
+    /// Proves the properties, and what the parts of the circuit assume. Returns the results of the
+    /// properties in their order, those of the parts' assumptions, and the circuit's own assumptions.
     ///
     /// # Errors
-    /// Returns an error if the circuit cannot be elaborated or has no properties.
+    /// Returns an error if the circuit cannot be elaborated, or there is nothing to prove.
     pub fn run(self) -> Result<Vec<Concluded<Counterexample<C>>>, InductError> {
         let model = match self.model {
             Some(model) => model,
@@ -135,6 +145,7 @@ impl<C: Circuit> Induct<'_, C> {
             });
             all.push(Concluded {
                 property: concluded.property,
+                part: concluded.part,
                 is_helper: concluded.is_helper,
                 conclusion,
                 time: concluded.time,
@@ -153,35 +164,26 @@ impl<C: Circuit> fmt::Debug for Induct<'_, C> {
     }
 }
 
-/// Proves the properties of an elaborated circuit.
+/// Proves the properties of an elaborated circuit, and what its parts assume.
 ///
 /// # Errors
-/// Returns an error if the circuit has no properties.
+/// Returns an error if there is nothing to prove.
 pub(crate) fn conclude(
     model: &Elaborated,
     limit: Duration,
 ) -> Result<Vec<Concluded<Violation>>, InductError> {
     let circuit = || model.name().to_owned();
-    let stated = model.stated();
-    let of = |is: fn(Claim) -> bool| {
-        let all = stated.iter().enumerate();
-        all.filter(move |(_, it)| is(it.claim))
-            .map(|(index, _)| index)
-    };
-    let task = Task {
-        flat: model.flat(),
-        properties: of(Claim::is_proved).collect(),
-        givens: of(|claim| claim == Claim::Given).collect(),
-        memory_bits: MEMORY_BITS,
-        limit,
-    };
-    if task.properties.is_empty() {
+    let (whole, stated) = model.with_parts()?;
+    let model = &whole;
+    if !stated.iter().any(is_asked) {
         return Err(InductError::NoProperties { circuit: circuit() });
     }
+    let alone = Alone::of(model.design(), model.flat(), &stated, limit)?;
+    let task = Task::new(model.flat(), &stated, &alone, is_asked, limit);
     let results = prover::prove(&task);
     let unconfirmed = |property: usize, result| InductError::Unconfirmed {
         circuit: circuit(),
-        property: stated[property].name.to_owned(),
+        property: stated[property].title(),
         result,
     };
     let Results {
@@ -197,13 +199,30 @@ pub(crate) fn conclude(
     if let Some(&property) = refused.first() {
         return Err(unconfirmed(property, "the proof"));
     }
+    let row = |property: usize, conclusion, time| {
+        let stated = &stated[property];
+        Concluded {
+            property: stated.name.to_owned(),
+            part: (!stated.path.is_empty()).then(|| stated.path.join(".")),
+            is_helper: stated.claim == Claim::Helper,
+            conclusion,
+            time,
+        }
+    };
+    let by = |basis: &Basis| match basis {
+        Basis::EveryState => By::EveryState,
+        Basis::Induction(ticks) => By::Induction(*ticks),
+        Basis::Search(never) => By::Search {
+            clauses: never.iter().map(|it| Clause::new(model, it)).collect(),
+        },
+    };
     let mut all = Vec::new();
     for (&property, (found, time)) in task.properties.iter().zip(found) {
-        let name = stated[property].name;
+        let name = stated[property].title();
         let conclusion = match found {
             Found::TooLarge => Conclusion::TooLarge,
             Found::Open(never, from) => {
-                let property = (property, name);
+                let property = (property, &name[..]);
                 let from = from.and_then(|from| NotInductive::new(model, property, &from, &never));
                 let from = from.map(Box::new);
                 Conclusion::Open { from }
@@ -211,14 +230,8 @@ pub(crate) fn conclude(
             Found::Proved(grounds) => {
                 let with = grounds.with.iter();
                 Conclusion::Proof {
-                    with: with.map(|&lemma| stated[lemma].name.to_owned()).collect(),
-                    by: match grounds.basis {
-                        Basis::EveryState => By::EveryState,
-                        Basis::Induction(ticks) => By::Induction(ticks),
-                        Basis::Search(never) => By::Search {
-                            clauses: never.iter().map(|it| Clause::new(model, it)).collect(),
-                        },
-                    },
+                    with: with.map(|&lemma| stated[lemma].title()).collect(),
+                    by: by(&grounds.basis),
                 }
             }
             Found::Violated(mut inputs) => match replay(model, &inputs, property, &task.givens) {
@@ -229,20 +242,38 @@ pub(crate) fn conclude(
                         signals: signals.map(|&signal| signal.to_owned()).collect(),
                         message: "does not hold".to_owned(),
                     };
-                    Conclusion::Refuted(Violation::new(model, inputs, name.to_owned(), fault))
+                    Conclusion::Refuted(Violation::new(model, inputs, name, fault))
                 }
                 None if is_abstract => Conclusion::Open { from: None },
                 None => return Err(unconfirmed(property, "the counterexample")),
             },
         };
-        all.push(Concluded {
-            property: name.to_owned(),
-            is_helper: stated[property].claim == Claim::Helper,
-            conclusion,
-            time,
-        });
+        all.push((property, row(property, conclusion, time)));
     }
-    Ok(all)
+    for (property, kept) in alone.kept.iter().enumerate() {
+        if let Some(kept) = kept {
+            let conclusion = Conclusion::Proof {
+                by: by(&kept.basis),
+                with: kept.with.iter().map(Statement::title).collect(),
+            };
+            all.push((property, row(property, conclusion, kept.time)));
+        }
+    }
+    all.sort_by_key(|(property, _)| *property);
+    let givens = task.givens.iter();
+    let givens = givens.map(|&given| row(given, Conclusion::Assumed, Duration::ZERO));
+    let all = all.into_iter().map(|(_, row)| row);
+    Ok(all.chain(givens).collect())
+}
+
+/// True if a proof of the statement is asked for.
+fn is_asked(stated: &Statement) -> bool {
+    is_obligation(stated) || stated.path.is_empty() && stated.claim.is_proved()
+}
+
+/// True if the statement is an assumption of a part, which the circuit around it has to keep.
+fn is_obligation(stated: &Statement) -> bool {
+    stated.claim == Claim::Given && !stated.path.is_empty()
 }
 
 /// Runs the circuit from power-on; returns the number of ticks after which the property is violated

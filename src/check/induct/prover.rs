@@ -55,6 +55,8 @@ pub(super) struct Task<'f> {
     pub flat: &'f Flat,
     /// Properties to prove, by their number in the netlist.
     pub properties: Vec<usize>,
+    /// Properties of parts. Those that an induction proves soon are lemmas; the others do not count.
+    pub lemmas: Vec<usize>,
     /// Properties that are assumed in every tick.
     pub givens: Vec<usize>,
     /// Greatest size of all expanded memories in bits; a read of another one may give any word.
@@ -93,8 +95,8 @@ struct Prover<'t, 'f> {
 
 /// Proves or refutes the properties of a task.
 pub(super) fn prove(task: &Task<'_>) -> Results {
-    let asked = task.properties.iter().chain(&task.givens);
-    let asked: Vec<_> = asked.map(|&index| task.flat.properties[index]).collect();
+    let asked = task.proved().chain(task.givens.iter().copied());
+    let asked: Vec<_> = asked.map(|index| task.flat.properties[index]).collect();
     let cone = Cone::of(task.flat, &asked, task.memory_bits);
     let count = task.flat.properties.len();
     let mut prover = Prover {
@@ -145,7 +147,7 @@ impl Prover<'_, '_> {
     }
 
     fn run(&mut self) -> Result<(), NotSliced> {
-        for property in self.open() {
+        for property in self.open(self.task.proved()) {
             match self.ask(Start::Any, property, 0, &[])? {
                 Answer::Impossible => self.prove(property, Basis::EveryState, Vec::new()),
                 Answer::Possible => {}
@@ -153,18 +155,18 @@ impl Prover<'_, '_> {
             }
         }
         for ticks in 1..=INDUCTION {
-            self.start(ticks)?;
+            self.start(self.open(self.task.proved()), ticks)?;
             self.induct(ticks)?;
         }
-        self.start(TICKS)?;
+        self.start(self.asked(), TICKS)?;
         // A property that takes long may be easy with one that comes after it.
         for share in [4, 1] {
-            for property in self.open() {
+            for property in self.asked() {
                 self.search(property, share)?;
             }
             self.induct(1)?;
         }
-        for property in self.open() {
+        for property in self.asked() {
             let from = self.not_inductive(property)?;
             if let Some(Found::Open(_, slot)) = &mut self.found[property] {
                 *slot = from;
@@ -185,11 +187,15 @@ impl Prover<'_, '_> {
         not_inductive::find(&mut self.step, At { property, tick: 1 }, &held, until)
     }
 
-    /// Returns the properties without a result.
-    fn open(&self) -> Vec<usize> {
-        let open = self.task.properties.iter().copied();
+    /// Returns those of the properties that have no result.
+    fn open(&self, properties: impl Iterator<Item = usize>) -> Vec<usize> {
         let is_open = |&index: &usize| matches!(self.found[index], None | Some(Found::Open(..)));
-        open.filter(is_open).collect()
+        properties.filter(is_open).collect()
+    }
+
+    /// Returns the properties to prove that have no result.
+    fn asked(&self) -> Vec<usize> {
+        self.open(self.task.properties.iter().copied())
     }
 
     fn prove(&mut self, property: usize, basis: Basis, with: Vec<usize>) {
@@ -199,7 +205,7 @@ impl Prover<'_, '_> {
 
     /// Returns the proved properties that say something of the state.
     fn lemmas(&self) -> Vec<usize> {
-        let all = self.task.properties.iter().copied();
+        let all = self.task.proved();
         let is_lemma = |&index: &usize| match &self.found[index] {
             Some(Found::Proved(grounds)) => !matches!(grounds.basis, Basis::EveryState),
             _ => false,
@@ -209,7 +215,11 @@ impl Prover<'_, '_> {
 
     /// Returns the time at which the work on a property has to end.
     fn until(&self, property: usize) -> Instant {
-        Instant::now() + self.task.limit.saturating_sub(self.spent[property])
+        Instant::now()
+            + self
+                .task
+                .limit(property)
+                .saturating_sub(self.spent[property])
     }
 
     /// Searches for a violation of a property in a tick, with `held` and the givens.
@@ -233,9 +243,9 @@ impl Prover<'_, '_> {
         answer
     }
 
-    /// Looks for violations in the first ticks from power-on.
-    fn start(&mut self, ticks: usize) -> Result<(), NotSliced> {
-        for property in self.open() {
+    /// Looks for violations of properties in the first ticks from power-on.
+    fn start(&mut self, properties: Vec<usize>, ticks: usize) -> Result<(), NotSliced> {
+        for property in properties {
             for tick in self.safe[property]..ticks {
                 match self.ask(Start::PowerOn, property, tick, &[])? {
                     Answer::Impossible => self.safe[property] = tick + 1,
@@ -253,7 +263,7 @@ impl Prover<'_, '_> {
 
     /// Proves those properties that hold in a tick after `ticks` ticks in which all of them hold.
     fn induct(&mut self, ticks: usize) -> Result<(), NotSliced> {
-        let mut group = self.open();
+        let mut group = self.open(self.task.proved());
         group.retain(|&index| self.safe[index] >= ticks);
         let lemmas = each(&self.lemmas(), 0..=ticks);
         loop {
@@ -261,7 +271,7 @@ impl Prover<'_, '_> {
             held.extend(&lemmas);
             let (mut proved, mut dropped) = (Vec::new(), Vec::new());
             for &property in &group {
-                let in_time = self.spent[property] < self.task.limit;
+                let in_time = self.spent[property] < self.task.limit(property);
                 match self.ask(Start::Any, property, ticks, &held)? {
                     Answer::Impossible => {
                         let needed = self.step.needed(&held)?;

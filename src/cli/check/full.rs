@@ -43,6 +43,8 @@ pub enum FullBy {
     Open,
     /// A single question took too long, or the circuit has too many gates.
     TooLarge,
+    /// Not proved: the circuit relies on it. A circuit around this one has to keep it.
+    Assumed,
 }
 
 /// Result of a property at the circuit's own widths.
@@ -55,6 +57,8 @@ pub struct FullRow {
     pub widths: BTreeMap<String, u64>,
     /// The property.
     pub property: String,
+    /// Path of the part of the circuit that assumes it; `null` for one of the circuit itself.
+    pub part: Option<String>,
     /// True if the property is there only to make the proofs of others possible.
     pub helper: bool,
     /// Way to the result.
@@ -83,9 +87,9 @@ pub struct FullReport {
     pub program_version: String,
     /// Arguments of the command.
     pub asked: Asked,
-    /// Properties.
+    /// Properties, and what the parts of the circuits assume.
     pub rows: Vec<FullRow>,
-    /// Circuits that state no property in words of the circuit.
+    /// Circuits that state no property in words of the circuit, nor contain a part that assumes one.
     pub without_properties: Vec<String>,
 }
 
@@ -124,7 +128,8 @@ pub fn run(asked: Asked, out: &Path) -> Result<FullReport, Failure> {
                     row.report = Some(with_waves(&from.to_string(), waves, &list));
                 }
                 Conclusion::TooLarge => {
-                    let narrower = entry.narrower(pairs, &row.property, limit);
+                    let narrower =
+                        entry.narrower(pairs, (row.part.as_deref(), &row.property), limit);
                     row.proved_at = narrower.map(|widths| widths.into_iter().collect());
                 }
                 _ => {}
@@ -165,6 +170,7 @@ fn row(circuit: &str, widths: &BTreeMap<String, u64>, concluded: &Concluded<Viol
         circuit: circuit.to_owned(),
         widths: widths.clone(),
         property: concluded.property.clone(),
+        part: concluded.part.clone(),
         helper: concluded.is_helper,
         full_width_by: FullBy::Open,
         ticks: None,
@@ -178,6 +184,7 @@ fn row(circuit: &str, widths: &BTreeMap<String, u64>, concluded: &Concluded<Viol
         Conclusion::Refuted(_) => FullBy::Refuted,
         Conclusion::Open { .. } => FullBy::Open,
         Conclusion::TooLarge => FullBy::TooLarge,
+        Conclusion::Assumed => FullBy::Assumed,
         Conclusion::Proof { by, with } => {
             row.with.clone_from(with);
             match by {
@@ -230,6 +237,7 @@ impl FullRow {
             FullBy::Search if clauses == 1 => "search, 1 clause".to_owned(),
             FullBy::Search => format!("search, {clauses} clauses"),
             FullBy::Refuted => "REFUTED".to_owned(),
+            FullBy::Assumed => "assumed".to_owned(),
             FullBy::Open => "open".to_owned(),
             FullBy::TooLarge => match &self.proved_at {
                 Some(widths) => format!("too large; proved at {}", range(widths)),
@@ -260,9 +268,11 @@ impl FullReport {
         );
         for row in &self.rows {
             let helper = if row.helper { " (helper)" } else { "" };
+            let part = row.part.as_ref().map(|part| format!("{part}: "));
+            let part = part.unwrap_or_default();
             let _ = writeln!(
                 table,
-                "{:<22} {:>5} {:<20} {:>7.3} s  {}{helper}{}",
+                "{:<22} {:>5} {:<20} {:>7.3} s  {part}{}{helper}{}",
                 row.circuit,
                 range(&row.widths),
                 row.by(),

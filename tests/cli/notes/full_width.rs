@@ -19,6 +19,7 @@ const SLOW: &[&str] = &[
     "gray_receiver",
     "line_law",
     "mul_div",
+    "pattern_generator",
     "pattern_memory",
     "phase_counter",
     "position_history",
@@ -69,7 +70,9 @@ fn rows(entry: &Entry, stands: &str) -> Vec<String> {
         match known.filter(|_| SLOW.contains(&entry.name)) {
             Some(known) => rows.extend(known.into_iter().map(|row| format!("{row}\n"))),
             None => {
-                let concluded = full.induct(LIMIT).expect("it has properties");
+                let mut concluded = full.induct(LIMIT).expect("it has properties");
+                concluded.retain(|one| one.part.is_none());
+                concluded.retain(|one| !matches!(one.conclusion, Conclusion::Assumed));
                 rows.extend(concluded.iter().map(|one| {
                     let by = by(entry, one);
                     format!("{}{by} |\n", begin(&one.property))
@@ -102,8 +105,9 @@ fn by(entry: &Entry, concluded: &Concluded<Violation>) -> String {
         } => format!("search{helper}"),
         Conclusion::Proof { by, .. } => format!("{by}{helper}"),
         Conclusion::Open { .. } => "open".to_owned(),
+        Conclusion::Assumed => "assumed".to_owned(),
         Conclusion::TooLarge => {
-            let narrower = entry.narrower(&[], &concluded.property, LIMIT);
+            let narrower = entry.narrower(&[], (None, &concluded.property), LIMIT);
             let widths = narrower.into_iter().flatten();
             let widths: Vec<_> = widths
                 .map(|(key, bits)| format!("{key} = {bits} bits"))

@@ -57,6 +57,7 @@ fn answer(all: &[Option<Grounds>]) -> Answer {
     let task = Task {
         flat: &flat,
         properties: (0..4).collect(),
+        lemmas: Vec::new(),
         givens: Vec::new(),
         memory_bits: 0,
         limit: Duration::from_secs(10),

@@ -62,6 +62,7 @@ fn results(stated: fn(&Moment<Counter>) -> Vec<Property>, limit: u64) -> Vec<Str
         Conclusion::Open { from: Some(from) } => from.to_string(),
         Conclusion::Open { from: None } => "open".to_owned(),
         Conclusion::TooLarge => "too large".to_owned(),
+        Conclusion::Assumed => "assumed".to_owned(),
     };
     results
         .map(|it| text(&it.conclusion).trim().to_owned())
@@ -98,7 +99,8 @@ fn every_way_to_a_proof_is_taken() {
             "every state",
             "induction 1",
             "search, 1 clause",
-            "induction 1"
+            "induction 1",
+            "assumed"
         ]
     );
     let counter = Counter { stated };
@@ -129,12 +131,16 @@ fn a_property_may_need_another_one() {
     let found = results(stated, 5_000);
     assert_eq!(
         found,
-        ["induction 1 the count keeps its end", "induction 1"]
+        [
+            "induction 1 the count keeps its end",
+            "induction 1",
+            "assumed"
+        ]
     );
     let counter = Counter { stated };
     let found = induct(&counter).run().expect("it has properties");
     let helpers = found.iter().map(|it| it.is_helper);
-    assert_eq!(helpers.collect::<Vec<_>>(), [false, true]);
+    assert_eq!(helpers.collect::<Vec<_>>(), [false, true, false]);
 }
 
 #[test]

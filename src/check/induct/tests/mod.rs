@@ -3,5 +3,6 @@
 
 mod certificates;
 mod circuits;
+mod parts;
 mod ticks;
 mod visit;

@@ -120,6 +120,7 @@ fn compare(mut flat: Flat, given: bool, memory_bits: usize) -> Result<[usize; 4]
     let task = Task {
         flat: &flat,
         properties: properties.clone(),
+        lemmas: Vec::new(),
         givens: givens.clone(),
         memory_bits,
         limit: Duration::from_secs(10),
