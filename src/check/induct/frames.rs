@@ -77,6 +77,11 @@ impl Cone {
         }
     }
 
+    /// True if words of a memory are state.
+    pub fn is_expanded(&self) -> bool {
+        self.expanded.contains(&true)
+    }
+
     /// True if a read of some memory may give any word: a counterexample may then be spurious.
     pub fn is_abstract(&self, flat: &Flat) -> bool {
         (0..flat.memories.len()).any(|memory| self.is_free(flat, memory))
@@ -196,6 +201,12 @@ impl<'f> Frames<'f> {
         let lowering = Lowering::of(self.flat, Some(state.clone()), self.unused, gates, &cone);
         let mut lowering = lowering?;
         self.next = after(&mut lowering, &state);
+        // The node that a register takes may be in the cone without it.
+        for (word, inside) in self.next.registers.iter_mut().zip(&self.cone.registers) {
+            if !inside {
+                word.clear();
+            }
+        }
         let properties = self.flat.properties.iter();
         let properties = properties.map(|&id| lowering.word(id).first().copied().unwrap_or(LOW));
         let properties = properties.collect();

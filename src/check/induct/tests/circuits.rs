@@ -16,6 +16,7 @@ struct Counter {
 signals! { for Counter as _c;
     pub struct In { go: Bit, by: U(16) }
     pub struct Reg {
+        going: Bit = 0,
         count: U(16) = 0,
         other: U(16) = 0,
         state: U(2) = 0,
@@ -34,6 +35,7 @@ impl Circuit for Counter {
         let count = i.go.mux(next, q.count);
         let turned = q.state.equals(2).mux(0, q.state + 1);
         let next = Reg {
+            going: i.go,
             count,
             other: q.other ^ i.by,
             state: i.go.mux(turned, q.state),
@@ -112,6 +114,30 @@ fn every_way_to_a_proof_is_taken() {
         panic!("{by}");
     };
     assert_eq!(clauses[0].to_string(), "never state[0] & state[1]");
+}
+
+/// Nothing reads the register, but the node that it takes is read.
+#[test]
+fn a_register_outside_of_the_cone_is_no_part_of_a_search() {
+    let found = results(
+        |now| {
+            let (i, q) = (&now.i, &now.q);
+            vec![
+                Property::always(
+                    "the last state but one does not go",
+                    &["state"],
+                    !(q.state.equals(3) & i.go),
+                ),
+                Property::step(
+                    "going follows go",
+                    &["going"],
+                    now.next.q.going.equals(i.go),
+                ),
+            ]
+        },
+        5_000,
+    );
+    assert_eq!(found, ["search, 1 clause", "every state"]);
 }
 
 #[test]

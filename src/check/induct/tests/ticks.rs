@@ -92,6 +92,13 @@ proptest! {
                 prop_assert_eq!(number(&levels, &[*wire]), expected, "tick {}", tick);
             }
             plain.edge();
+            let places = |tick| {
+                let state = frames.state(tick).expect("few gates");
+                let bits = Frames::bits(state).into_iter();
+                bits.map(|(place, bit, _)| (place, bit)).collect::<Vec<_>>()
+            };
+            let [first, after] = [0, tick + 1].map(places);
+            prop_assert_eq!(first, after, "every tick has the same bits of state");
             let state = frames.state(tick + 1).expect("few gates");
             for (index, word) in state.registers.iter().enumerate() {
                 let expected = plain.registers[index];
