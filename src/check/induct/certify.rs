@@ -37,20 +37,28 @@ pub(super) fn check(
     }
     let asked = before.iter().chain(&beside).chain(&task.givens);
     let asked: Vec<_> = asked.map(|&index| task.flat.properties[index]).collect();
-    let cone = Cone::of(task.flat, &asked, task.memory_bits);
     let until = Instant::now() + task.limit * TIMES;
     before.extend(&task.givens);
-    let check = Check {
-        task,
-        cone: &cone,
-        property,
-        before,
-        until,
+    let answer = |memory_bits: usize| {
+        let check = Check {
+            task,
+            cone: &Cone::of(task.flat, &asked, memory_bits),
+            property,
+            before: &before,
+            until,
+        };
+        match &grounds.basis {
+            Basis::EveryState => check.every_state(),
+            Basis::Induction(ticks) => check.induction(*ticks, &beside),
+            Basis::Search(never) => check.invariant(never),
+        }
     };
-    match &grounds.basis {
-        Basis::EveryState => check.every_state(),
-        Basis::Induction(ticks) => check.induction(*ticks, &beside),
-        Basis::Search(never) => check.invariant(never),
+    // Most proofs hold whatever words the reads of memories give.
+    match grounds.basis {
+        Basis::EveryState | Basis::Induction(_) if answer(0)? == Answer::Impossible => {
+            Ok(Answer::Impossible)
+        }
+        _ => answer(task.memory_bits),
     }
 }
 
@@ -68,7 +76,7 @@ struct Check<'t, 'f> {
     cone: &'t Cone,
     property: usize,
     /// Properties that hold in every tick.
-    before: Vec<usize>,
+    before: &'t [usize],
     until: Instant,
 }
 
@@ -94,7 +102,7 @@ impl Check<'_, '_> {
                 return Ok(answer);
             }
         }
-        let mut held = each(&self.before, 0..=ticks);
+        let mut held = each(self.before, 0..=ticks);
         held.extend(each(beside, 0..=ticks - 1));
         self.violate(Start::Any, ticks, &held)
     }
@@ -117,13 +125,15 @@ impl Check<'_, '_> {
             unrolled.frames.state(0)?.clone(),
             unrolled.frames.state(1)?.clone(),
         );
-        let Unrolled { frames, clauses } = &mut unrolled;
+        let Unrolled {
+            frames, clauses, ..
+        } = &mut unrolled;
         for cube in never {
             let inside = literals(clauses, &frames.gates, &now, cube);
             let outside: Vec<Lit> = inside.into_iter().map(|lit| !lit).collect();
             clauses.assert(&outside);
         }
-        let held = each(&self.before, 0..=0);
+        let held = each(self.before, 0..=0);
         let at = At {
             property: self.property,
             tick: 0,
@@ -136,7 +146,9 @@ impl Check<'_, '_> {
         for at in held {
             known.push(unrolled.holds(at)?);
         }
-        let Unrolled { frames, clauses } = &mut unrolled;
+        let Unrolled {
+            frames, clauses, ..
+        } = &mut unrolled;
         for cube in never {
             let mut entered = literals(clauses, &frames.gates, &next, cube);
             entered.extend(&known);

@@ -27,6 +27,7 @@ mod alone;
 mod certify;
 mod clauses;
 mod conclusion;
+mod conjuncts;
 mod frames;
 mod not_inductive;
 mod prover;

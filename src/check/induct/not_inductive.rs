@@ -16,6 +16,9 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+/// Greatest number of clauses that are shown.
+const SHOWN: usize = 5;
+
 /// State and input ports, by their places in the netlist.
 #[derive(Debug)]
 pub(super) struct Found {
@@ -45,7 +48,9 @@ pub(super) fn find(
     }
     let (frame, _) = unrolled.frames.tick(violated.tick)?;
     goal.push(!frame.properties[violated.property]);
-    let Unrolled { frames, clauses } = unrolled;
+    let Unrolled {
+        frames, clauses, ..
+    } = unrolled;
     let state = frames.state(0)?.clone();
     let bits = Frames::bits(&state);
     let free = frames.free(bits.len());
@@ -108,8 +113,11 @@ pub struct NotInductive {
     pub property: String,
     /// Registers from which the violation follows, with their values.
     pub signals: Vec<(String, String)>,
-    /// Clauses that exclude the state. They hold for some ticks from power-on, perhaps always.
+    /// Clauses that exclude the state, the shortest first, five at most. They hold for some ticks
+    /// from power-on, perhaps always.
     pub clauses: Vec<Clause>,
+    /// Number of other clauses that exclude the state.
+    pub more: usize,
     /// Words of the registers and memories, by leaf.
     state: Vec<(usize, u64)>,
     inputs: Vec<Vec<u64>>,
@@ -136,12 +144,14 @@ impl NotInductive {
             let name = below(model.name(), &declared.path()).to_owned();
             Some((name, show(declared.shape, declared.field.format, *word)))
         });
-        let clauses = never.iter().filter(|never| found.is_in(never));
-        let clauses = clauses.map(|never| Clause::new(model, never));
+        let excluding = never.iter().filter(|never| found.is_in(never)).collect();
+        let (clauses, more) = shortest(excluding);
+        let clauses = clauses.into_iter().map(|never| Clause::new(model, never));
         let made = NotInductive {
             property: property.1.to_owned(),
             signals: signals.collect(),
             clauses: clauses.collect(),
+            more,
             state,
             inputs: found.inputs.clone(),
         };
@@ -205,8 +215,25 @@ impl fmt::Display for NotInductive {
             let before = if index == 0 { "; excluded by: " } else { ", " };
             write!(f, "{before}{clause}")?;
         }
-        Ok(())
+        match self.more {
+            0 => Ok(()),
+            more => write!(f, ", and {more} more"),
+        }
     }
+}
+
+/// Returns the shortest sets, each once and five at most, and the number of the others.
+fn shortest(mut never: Vec<&Never>) -> (Vec<&Never>, usize) {
+    never.sort_by_key(|never| never.len());
+    let mut all: Vec<&Never> = Vec::new();
+    for never in never {
+        if !all.contains(&never) {
+            all.push(never);
+        }
+    }
+    let more = all.len().saturating_sub(SHOWN);
+    all.truncate(SHOWN);
+    (all, more)
 }
 
 /// Set of states that are never entered: some bits of registers have never these values together.
@@ -245,5 +272,46 @@ impl fmt::Display for Clause {
             write!(f, "{and}{not}{name}")?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::induct::search::StateBit;
+
+    #[test]
+    fn the_shortest_clauses_are_shown() {
+        let never = |bits: usize, register: u32| -> Never {
+            let bits = (0..bits).map(|bit| StateBit {
+                place: Place::Register(register),
+                bit,
+                high: true,
+            });
+            bits.collect()
+        };
+        let all: Vec<Never> = (0..8)
+            .map(|index| never(9 - index as usize, index))
+            .collect();
+        let (shown, more) = shortest(all.iter().chain(&all[7..]).collect());
+        let bits: Vec<usize> = shown.iter().map(|never| never.len()).collect();
+        assert_eq!((bits, more), (vec![2, 3, 4, 5, 6], 3));
+        let (shown, more) = shortest(all[..5].iter().collect());
+        assert_eq!((shown.len(), more), (5, 0));
+        let mut open = NotInductive {
+            property: "it ends".to_owned(),
+            signals: vec![("count".to_owned(), "7".to_owned())],
+            clauses: vec![Clause {
+                bits: vec![("state[0]".to_owned(), true), ("busy".to_owned(), false)],
+            }],
+            more,
+            state: Vec::new(),
+            inputs: Vec::new(),
+        };
+        let text = "it ends is not inductive: from count = 7, a state that may never come, it is \
+                    violated a tick later; excluded by: never state[0] & !busy";
+        assert_eq!(open.to_string(), text);
+        open.more = 3;
+        assert_eq!(open.to_string(), format!("{text}, and 3 more"));
     }
 }

@@ -1,6 +1,8 @@
 //! Proofs of the properties of a netlist, one after the other: induction over all of them, then a
 //! search for each that is left.
 
+mod any_words;
+
 use super::certify;
 use super::clauses::Answer;
 use super::frames::{Cone, Start};
@@ -65,6 +67,15 @@ pub(super) struct Task<'f> {
     pub limit: Duration,
 }
 
+impl Task<'_> {
+    /// Returns the cone of all statements, with at most `memory_bits` bits of memories as state.
+    fn cone(&self, memory_bits: usize) -> Cone {
+        let asked = self.proved().chain(self.givens.iter().copied());
+        let asked: Vec<_> = asked.map(|index| self.flat.properties[index]).collect();
+        Cone::of(self.flat, &asked, memory_bits)
+    }
+}
+
 /// Results of a prover.
 #[derive(Debug)]
 pub(super) struct Results {
@@ -95,21 +106,8 @@ struct Prover<'t, 'f> {
 
 /// Proves or refutes the properties of a task.
 pub(super) fn prove(task: &Task<'_>) -> Results {
-    let asked = task.proved().chain(task.givens.iter().copied());
-    let asked: Vec<_> = asked.map(|index| task.flat.properties[index]).collect();
-    let cone = Cone::of(task.flat, &asked, task.memory_bits);
-    let count = task.flat.properties.len();
-    let mut prover = Prover {
-        task,
-        cone: &cone,
-        base: Unrolled::new(task.flat, &cone, Start::PowerOn),
-        step: Unrolled::new(task.flat, &cone, Start::Any),
-        found: (0..count).map(|_| None).collect(),
-        spent: vec![Duration::ZERO; count],
-        safe: vec![0; count],
-        hard: vec![false; count],
-        steps: 0,
-    };
+    let cone = task.cone(task.memory_bits);
+    let mut prover = Prover::new(task, &cone);
     let dead = prover.dead();
     let large = dead.is_err() || prover.run().is_err();
     let refused = prover.certify();
@@ -130,7 +128,22 @@ pub(super) fn prove(task: &Task<'_>) -> Results {
     }
 }
 
-impl Prover<'_, '_> {
+impl<'t, 'f> Prover<'t, 'f> {
+    fn new(task: &'t Task<'f>, cone: &'t Cone) -> Self {
+        let count = task.flat.properties.len();
+        Prover {
+            task,
+            cone,
+            base: Unrolled::new(task.flat, cone, Start::PowerOn),
+            step: Unrolled::new(task.flat, cone, Start::Any),
+            found: (0..count).map(|_| None).collect(),
+            spent: vec![Duration::ZERO; count],
+            safe: vec![0; count],
+            hard: vec![false; count],
+            steps: 0,
+        }
+    }
+
     /// Returns the first tick of an induction's start in which no input keeps the givens.
     fn dead(&mut self) -> Result<Option<usize>, NotSliced> {
         let until = Instant::now() + self.task.limit;
@@ -147,13 +160,8 @@ impl Prover<'_, '_> {
     }
 
     fn run(&mut self) -> Result<(), NotSliced> {
-        for property in self.open(self.task.proved()) {
-            match self.ask(Start::Any, property, 0, &[])? {
-                Answer::Impossible => self.prove(property, Basis::EveryState, Vec::new()),
-                Answer::Possible => {}
-                Answer::Unknown => self.hard[property] = true,
-            }
-        }
+        self.any_words()?;
+        self.every_state()?;
         for ticks in 1..=INDUCTION {
             self.start(self.open(self.task.proved()), ticks)?;
             self.induct(ticks)?;
@@ -168,8 +176,22 @@ impl Prover<'_, '_> {
         }
         for property in self.asked() {
             let from = self.not_inductive(property)?;
+            // A state would be found, but for the time.
+            self.hard[property] |= from.is_none();
             if let Some(Found::Open(_, slot)) = &mut self.found[property] {
                 *slot = from;
+            }
+        }
+        Ok(())
+    }
+
+    /// Proves the properties that no state violates.
+    fn every_state(&mut self) -> Result<(), NotSliced> {
+        for property in self.open(self.task.proved()) {
+            match self.ask(Start::Any, property, 0, &[])? {
+                Answer::Impossible => self.prove(property, Basis::EveryState, Vec::new()),
+                Answer::Possible => {}
+                Answer::Unknown => self.hard[property] = true,
             }
         }
         Ok(())

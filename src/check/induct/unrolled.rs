@@ -1,6 +1,7 @@
 //! Questions about the ticks of a netlist.
 
 use super::clauses::{Answer, Clauses};
+use super::conjuncts::conjuncts;
 use super::frames::{Cone, Frames, Start};
 use crate::engine::Flat;
 use crate::engine::sliced::NotSliced;
@@ -19,6 +20,8 @@ pub(super) struct At {
 pub(super) struct Unrolled<'f> {
     pub frames: Frames<'f>,
     pub clauses: Clauses,
+    /// Assumed literals that the last proof needed.
+    core: Vec<Lit>,
 }
 
 impl<'f> Unrolled<'f> {
@@ -26,6 +29,7 @@ impl<'f> Unrolled<'f> {
         Unrolled {
             frames: Frames::new(flat, cone, start),
             clauses: Clauses::new(),
+            core: Vec::new(),
         }
     }
 
@@ -35,7 +39,8 @@ impl<'f> Unrolled<'f> {
         Ok(self.clauses.lit(gates, frame.properties[at.property]))
     }
 
-    /// Searches for ticks in which `held` hold and `violated` does not.
+    /// Searches for ticks in which `held` hold and `violated` does not: for each part of the property
+    /// in turn, with those before it as lemmas.
     pub fn violate(
         &mut self,
         violated: At,
@@ -46,16 +51,34 @@ impl<'f> Unrolled<'f> {
         for &at in held {
             assumed.push(self.holds(at)?);
         }
-        assumed.push(!self.holds(violated)?);
-        Ok(self.clauses.solve(&assumed, until))
+        let (frame, _) = self.frames.tick(violated.tick)?;
+        let whole = frame.properties[violated.property];
+        let parts = conjuncts(&mut self.frames.gates, whole);
+        // High: the parts that are proved so far hold.
+        let before = self.clauses.free();
+        self.core.clear();
+        let mut answer = Answer::Impossible;
+        for part in parts {
+            let part = self.clauses.lit(&self.frames.gates, part);
+            let question = [&assumed[..], &[before, !part]].concat();
+            answer = self.clauses.solve(&question, until);
+            if answer != Answer::Impossible {
+                break;
+            }
+            let needed = assumed.iter().filter(|lit| self.clauses.is_needed(**lit));
+            self.core.extend(needed);
+            self.clauses.assert(&[!before, part]);
+        }
+        self.clauses.assert(&[!before]);
+        Ok(answer)
     }
 
-    /// Returns those of `held` that the last answer needed.
+    /// Returns those of `held` that the last proof needed.
     pub fn needed(&mut self, held: &[At]) -> Result<Vec<At>, NotSliced> {
         let mut needed = Vec::new();
         for &at in held {
             let lit = self.holds(at)?;
-            if self.clauses.is_needed(lit) {
+            if self.core.contains(&lit) {
                 needed.push(at);
             }
         }

@@ -7,6 +7,9 @@ use std::ops::Not;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Wire(u32);
 
+/// Number of gates in a row that a simplification looks at.
+const DEPTH: usize = 2;
+
 /// Constant low wire.
 pub const LOW: Wire = Wire(0);
 /// Constant high wire.
@@ -107,9 +110,20 @@ impl Gates {
         match (a, b) {
             (LOW, _) => LOW,
             (HIGH, other) => other,
-            _ if a == b => a,
-            _ if a == !b => LOW,
+            _ if self.needs(a, b, DEPTH) => a,
+            _ if self.needs(b, a, DEPTH) => b,
+            _ if self.needs(a, !b, DEPTH) || self.needs(b, !a, DEPTH) => LOW,
             _ => self.gate(Gate::And(a, b)),
+        }
+    }
+
+    /// True if a wire is an `and` of `part` and others, some gates deep, or `part` itself.
+    fn needs(&self, wire: Wire, part: Wire, depth: usize) -> bool {
+        let deeper = |wire| depth > 0 && self.needs(wire, part, depth - 1);
+        match self.gates[wire.gate()] {
+            _ if wire == part => true,
+            Gate::And(a, b) if !wire.is_inverse() => deeper(a) || deeper(b),
+            _ => false,
         }
     }
 
@@ -125,9 +139,26 @@ impl Gates {
         let plain = match (a, b) {
             (LOW, other) => other,
             _ if a == b => LOW,
-            _ => self.gate(Gate::Xor(a, b)),
+            _ => match self.changed(a, b).or_else(|| self.changed(b, a)) {
+                // A chosen word differs from one of the two if the other is chosen and differs.
+                Some((choose, other, same)) => {
+                    let differ = self.xor(other, same);
+                    self.and(choose, differ)
+                }
+                None => self.gate(Gate::Xor(a, b)),
+            },
         };
         plain.inverted(inverse)
+    }
+
+    /// Returns the condition under which a choice is not `same`, which is one of its inputs, the
+    /// other input, and `same`.
+    fn changed(&self, wire: Wire, same: Wire) -> Option<(Wire, Wire, Wire)> {
+        match self.gates[wire.gate()] {
+            Gate::Mux(choose, then, other) if other == same => Some((choose, then, same)),
+            Gate::Mux(choose, then, other) if then == same => Some((!choose, other, same)),
+            _ => None,
+        }
     }
 
     /// Returns `then` if `choose` is high, else `other`.
