@@ -36,18 +36,8 @@ fn containers() -> impl Iterator<Item = &'static Entry> {
     with(|it| !it.path.is_empty() && it.claim == Claim::Given)
 }
 
-/// Circuits that have properties which are not proved, or not in a second: with divisions, products
-/// of two words, or many words of memory.
-const HARD: &[&str] = &[
-    "unit_law",
-    "pulse_interpolator",
-    "line_law",
-    "tracking_loop",
-    "target_data",
-    "difference_history",
-    "vector_correction",
-    "shifter",
-];
+/// Circuits that have properties which are not proved: these compare two different products.
+const HARD: &[&str] = &["line_law"];
 
 /// Circuits whose faults are looked for in every run of the tests.
 const FEW: &[&str] = &[
@@ -109,7 +99,7 @@ fn properties_are_proved_at_full_width() {
     let open: Vec<_> = all.iter().flat_map(|(_, open)| open).collect();
     assert!(open.is_empty(), "{open:#?}");
     let proved: usize = all.iter().map(|(proved, _)| proved).sum();
-    assert!(proved >= 170, "{proved}");
+    assert!(proved >= 200, "{proved}");
 }
 
 #[test]
@@ -120,7 +110,7 @@ fn all_properties_but_few_are_proved_at_full_width() {
     let all: Vec<_> = all.collect();
     let open: Vec<_> = all.iter().flat_map(|(_, open)| open).collect();
     println!("{open:#?}");
-    assert!(open.len() <= 12, "{open:#?}");
+    assert!(open.len() <= 4, "{open:#?}");
 }
 
 /// Assumptions of parts that are not proved of all circuits around them: ends of the paths of parts,
@@ -265,6 +255,14 @@ fn agree(entry: &Entry, model: &Elaborated, what: &str) -> bool {
     }
 }
 
+/// Returns the assumptions of a circuit, with their numbers among its statements.
+fn givens(model: &Elaborated) -> Vec<(usize, &'static str)> {
+    let module = model.design().modules.last().expect("there is one");
+    let all = module.assertions.iter().enumerate();
+    let givens = all.filter(|(_, it)| it.claim == Claim::Given);
+    givens.map(|(index, it)| (index, it.name)).collect()
+}
+
 /// Puts faults into a circuit, `few` of them, evenly over all.
 fn faulty(entry: &Entry, few: usize) -> Vec<(String, crate::hdl::Mutation)> {
     let small = entry.small();
@@ -282,6 +280,11 @@ fn compare(entries: &[&Entry]) {
         let small = entry.small().model().expect("it can be elaborated");
         assert!(!agree(entry, &small, "without a fault"));
         let mut found = 0;
+        for (index, name) in givens(&small) {
+            let free = small.without(index).expect("it can be elaborated");
+            let violated = agree(entry, &free, &format!("without the assumption that {name}"));
+            println!("{}: {name}: needed: {violated}", entry.name);
+        }
         for (name, mutation) in faulty(entry, 10) {
             let Some(Ok(model)) = mutated(&mutation, || entry.small().model()) else {
                 continue;
@@ -295,6 +298,12 @@ fn compare(entries: &[&Entry]) {
 #[test]
 fn results_at_small_widths_are_those_of_a_visit_of_all_states() {
     compare(&few());
+}
+
+#[test]
+#[ignore = "takes long"]
+fn results_of_all_circuits_are_those_of_a_visit_of_all_states() {
+    compare(&visitable());
 }
 
 /// Puts faults into circuits at full width, until three are found in each. A fault that a visit of

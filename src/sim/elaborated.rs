@@ -8,6 +8,8 @@ use crate::hdl::{
     Circuit, Declarations, Record, Shapes, Source, declarations, elaborate, with_inputs,
 };
 use crate::netlist::{Assertion, Design, Role};
+#[cfg(test)]
+use crate::netlist::{BIT, Node};
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
@@ -119,6 +121,17 @@ impl Elaborated {
             outline: OnceLock::new(),
             declarations: OnceLock::new(),
         })
+    }
+
+    /// Returns the circuit with one of its statements always true.
+    #[cfg(test)]
+    pub(crate) fn without(&self, statement: usize) -> Result<Elaborated, EngineError> {
+        let mut design = (*self.design).clone();
+        if let Some(module) = design.modules.last_mut() {
+            module.nodes.push((Node::Constant(1), BIT));
+            module.assertions[statement].holds = module.nodes.len() - 1;
+        }
+        Elaborated::made((self.name, self.about), design, self.declare.clone())
     }
 
     /// Returns the circuit's name.
