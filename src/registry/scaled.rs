@@ -26,8 +26,9 @@ fn usual(widths: &[(String, u64)]) -> u64 {
 }
 
 impl Entry {
-    /// Returns widths at which a property of the full circuit, some keys changed, or of a part of
-    /// it is proved. All widths are halved until it is; `limit` is the time for each property.
+    /// Returns the greatest widths at which a property of the full circuit, some keys changed, or of
+    /// a part of it is proved. All widths grow together from one bit up, until the property is no longer proved;
+    /// `limit` is the time for each property.
     pub fn narrower(
         &self,
         pairs: &[Pair],
@@ -37,13 +38,15 @@ impl Entry {
         let full = self.widths(Base::Full, pairs);
         let most = full.iter().map(|(_, bits)| *bits).max()?;
         let start = Instant::now();
-        let mut divisor = 2;
-        while divisor <= most && start.elapsed() < 2 * limit {
+        let mut proved = None;
+        for greatest in 1..most {
+            if start.elapsed() > 2 * limit {
+                break;
+            }
             let widths: Vec<_> = full
                 .iter()
-                .map(|(key, bits)| (key.clone(), (bits / divisor).max(1)))
+                .map(|(key, bits)| (key.clone(), (bits * greatest).div_ceil(most)))
                 .collect();
-            divisor *= 2;
             let narrow = widths
                 .iter()
                 .map(|(key, bits)| Pair::new(key.clone(), *bits));
@@ -57,11 +60,13 @@ impl Entry {
             let mut concluded = concluded
                 .iter()
                 .filter(|it| it.property == property && it.part.as_deref() == part);
-            if concluded.any(|it| it.conclusion.is_proved()) {
-                return Some(widths);
+            match concluded.any(|it| it.conclusion.is_proved()) {
+                true => proved = Some(widths),
+                false if proved.is_some() => break,
+                false => {}
             }
         }
-        None
+        proved
     }
 
     /// Returns three ways to make the small circuit about `bits` wide: all widths changed by the same
