@@ -284,6 +284,7 @@ impl<'m> Expressions<'m> {
     fn binary(&self, operator: Operator, id: Id, a: Id, b: Id) -> Text {
         let (sign, rank) = self.sign(operator, id);
         match operator {
+            Operator::Xor if a == b => self.pair(sign, rank, a, b),
             // Chains need no brackets; everything looser than a comparison gets them.
             Operator::And | Operator::Or | Operator::Xor => {
                 let term = |operand: Id| {
@@ -310,7 +311,12 @@ impl<'m> Expressions<'m> {
         let left = self
             .text(a)
             .within(if rank == Rank::Sum { rank } else { tighter });
-        let right = self.text(b).within(tighter);
+        let right = match a == b {
+            // A property compares a net with its own driver.
+            true => self.computed(b),
+            false => self.text(b),
+        };
+        let right = right.within(tighter);
         Text(format!("{left} {sign} {right}"), rank)
     }
 

@@ -92,3 +92,47 @@ fn shared(module: &Module, expressions: &Expressions<'_>) -> String {
     }
     registers + &edges + &wires + "\n"
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::prelude::*;
+    use crate::verilog::Verilog;
+
+    /// Sum whose property computes what drives it.
+    #[derive(Debug, Clone)]
+    struct Sum;
+
+    signals! { for Sum as _c;
+        pub struct In { pub a: U(4), pub b: U(4) }
+        pub struct Net { pub sum: U(4), pub same: Bit }
+    }
+
+    impl Circuit for Sum {
+        const NAME: &'static str = "adder";
+        const ABOUT: &'static str = "adds two words";
+        records!(In, Nothing, Net);
+
+        fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {
+            let net = Net {
+                sum: i.a + i.b,
+                same: i.a.equals(i.b),
+            };
+            (net, Nothing)
+        }
+
+        fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+            let (i, w) = (&now.i, &now.w);
+            vec![
+                Property::always("sum is a plus b", &["sum"], w.sum.equals(i.a + i.b)),
+                Property::always("same compares", &["same"], w.same.equals(i.a.equals(i.b))),
+            ]
+        }
+    }
+
+    #[test]
+    fn an_assertion_about_a_net_shows_what_it_is_compared_with() {
+        let text = Verilog::new(&Sum).expect("it is right").top().text;
+        assert!(text.contains("assert (sum == a + b);"), "{text}");
+        assert!(text.contains("assert (!(same ^ (a == b)));"), "{text}");
+    }
+}
