@@ -5,7 +5,6 @@
 
 pub mod arc_generator;
 pub mod blocks;
-mod division;
 pub mod lead_angle;
 pub mod linear_interpolator;
 pub mod machine;

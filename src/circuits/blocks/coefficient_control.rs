@@ -107,27 +107,28 @@ impl Circuit for CoefficientControl {
             Property::step(
                 "a step begins if and only if step is high, none is running, and halt is low",
                 &["busy", "bit_index", "copy"],
-                !(taken ^ begins),
+                taken.equals(begins),
             ),
             Property::step(
                 "halt ends a step",
                 &["busy", "done"],
-                !i.halt | (!next.busy & !next.done),
+                i.halt.implies(!next.busy & !next.done),
             ),
             Property::step(
                 "each bit comes once, in order",
                 &["bit_index", "done"],
-                !q.busy | i.halt | (counted & !(next.done ^ bit.equals(bits))),
+                q.busy
+                    .implies(i.halt | (counted & next.done.equals(bit.equals(bits)))),
             ),
             Property::step(
                 "done comes only at the end of a step",
                 &["done"],
-                !next.done | q.busy,
+                next.done.implies(q.busy),
             ),
             Property::always(
                 "the fraction bits come first, then the bit of weight one, the sign and commit",
                 &["fraction", "top", "commit"],
-                !(w.fraction ^ fraction) & !(w.top ^ top) & !(w.commit ^ commit),
+                w.fraction.equals(fraction) & w.top.equals(top) & w.commit.equals(commit),
             ),
             Property::helper(
                 "the bit index is at most the width of a coefficient",

@@ -136,7 +136,7 @@ impl Circuit for DifferenceColumn {
             Property::step(
                 "a step adds the number of the column below without an error",
                 &["whole", "part"],
-                !i.step | i.record.load | self.adds(i, q, next),
+                i.step.implies(i.record.load | self.adds(i, q, next)),
             ),
             Property::step(
                 "after a step, the part is below the modulus",
@@ -216,14 +216,11 @@ impl DifferenceColumn {
 }
 
 impl Specified for DifferenceColumn {
-    /// Keeps the assumptions. A word that is not the column's, does not differ from another such.
+    /// All words that are not of the column have the same effect.
     fn applies(&self, i: &In<Value>) -> bool {
         let other = (0..32).find(|word| *word != self.whole_word && Some(*word) != self.part_word);
         let words = [Some(self.whole_word), self.part_word, other];
         i.record
             .is_among(&words.map(|word| word.unwrap_or(self.whole_word)))
-            && (1..=1 << (self.widths.part - 1)).contains(&i.modulus)
-            && i.by_part < i.modulus
-            && !(i.record.load && i.step)
     }
 }

@@ -66,12 +66,12 @@ impl Circuit for EnableCounter {
             Property::always(
                 "enable is high in the last tick of a period, and only there",
                 &["enable", "count", "period"],
-                !(w.enable ^ last),
+                w.enable.equals(last),
             ),
             Property::step(
                 "a period begins after enable",
                 &["count", "enable"],
-                !w.enable | next.count.is_zero(),
+                w.enable.implies(next.count.is_zero()),
             ),
             Property::step(
                 "without enable the count goes up by one and stays below the period",

@@ -161,16 +161,16 @@ impl Circuit for MulDiv {
         let mut all = vec![
             Property::given(
                 "the divisor is below half of the range when start is high",
-                !i.start | !i.divisor.bit(self.word - 1),
+                i.start.implies(!i.divisor.bit(self.word - 1)),
             ),
             Property::given(
                 "the product plus the addend fits a word when start is high",
-                !i.start | self.fits(i),
+                i.start.implies(self.fits(i)),
             ),
             Property::step(
                 "a start in idle begins an operation",
                 &["state", "quotient"],
-                !(i.start & idle) | (restarts & next.quotient.equals(i.addend)),
+                (i.start & idle).implies(restarts & next.quotient.equals(i.addend)),
             ),
             Property::step(
                 "a multiplication takes a tick per multiplier bit, a division a tick per word bit",
@@ -180,7 +180,7 @@ impl Circuit for MulDiv {
             Property::step(
                 "done is high only in the tick after the last bit",
                 &["done"],
-                !(next.done ^ (!idle & next.state.equals(IDLE))),
+                next.done.equals(!idle & next.state.equals(IDLE)),
             ),
             Property::always(
                 "the remainder stays below the divisor",
@@ -190,7 +190,7 @@ impl Circuit for MulDiv {
             Property::step(
                 "the bits divided so far equal quotient times divisor plus remainder",
                 &["quotient", "remainder"],
-                !divides | q.by.is_zero() | self.divides(q, next),
+                divides.implies(q.by.is_zero() | self.divides(q, next)),
             ),
         ];
         all.extend(self.helpers(q));
@@ -269,12 +269,10 @@ impl MulDiv {
 }
 
 impl Specified for MulDiv {
-    /// Keeps the assumptions. Without `start` the other ports are not looked at.
+    /// Without `start` the other ports are not looked at.
     fn applies(&self, i: &In<Value>) -> bool {
-        let least = 1 << (self.word - 1);
-        let fits = i.multiplicand * i.multiplier + i.addend < 2 * least;
         let words = [i.multiplicand, i.multiplier, i.addend, i.divisor];
         let given = words.iter().any(|&word| word > 0) || i.product_only;
-        fits && i.divisor < least && (i.start || !given)
+        i.start || !given
     }
 }

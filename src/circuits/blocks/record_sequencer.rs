@@ -184,7 +184,7 @@ impl Circuit for RecordSequencer {
         all.push(Property::step(
             "take is high in the first tick of a fetch, and only there",
             &["take", "state"],
-            !(next.take ^ fetches),
+            next.take.equals(fetches),
         ));
         all.extend(Self::flags(now));
         all.push(Property::step(
@@ -263,7 +263,7 @@ impl RecordSequencer {
         let data = i.record.data;
         let [header, second] = [0, 1].map(|word| i.record.load & i.record.word.equals(word));
         let kind = next.kind.equals(header.mux(data.resize(2), q.kind));
-        let rests = !(next.rests ^ header.mux(data.bit(2), q.rests));
+        let rests = next.rests.equals(header.mux(data.bit(2), q.rests));
         let samples = next.remaining.equals(data.slice(3, self.samples));
         let modulus = second.mux(data.resize(self.modulus), q.modulus);
         kind & rests & (samples | !header) & next.modulus.equals(modulus)
@@ -277,8 +277,8 @@ impl RecordSequencer {
         let arc = q.kind.equals(ARC);
         let left = steps.mux(q.remaining - 1, q.remaining);
         let counted = header | next.remaining.equals(left);
-        let advances = !(w.advance ^ (steps & !arc));
-        let rotates = !(next.rotate ^ (steps & (arc | self.waits)));
+        let advances = w.advance.equals(steps & !arc);
+        let rotates = next.rotate.equals(steps & (arc | self.waits));
         let due = i.sample & q.state.equals(READY) & !i.halt;
         [
             Property::step(
@@ -289,7 +289,7 @@ impl RecordSequencer {
             Property::step(
                 "a point becomes the command if and only if a sample comes while it is ready",
                 &["present", "sampled"],
-                !(w.present ^ due) & !(next.sampled ^ due),
+                w.present.equals(due) & next.sampled.equals(due),
             ),
         ]
     }
@@ -306,17 +306,17 @@ impl RecordSequencer {
             Property::step(
                 "first is high from a path's beginning until its first point becomes the command",
                 &["first"],
-                !(next.first ^ (begins | (q.first & !next.sampled))),
+                next.first.equals(begins | (q.first & !next.sampled)),
             ),
             Property::step(
                 "late is set if a sample comes while the next point is being computed",
                 &["late"],
-                !(next.late ^ (missed | (q.late & !begins))),
+                next.late.equals(missed | (q.late & !begins)),
             ),
             Property::step(
                 "starved is set if the sequencer becomes idle without a rest and without a halt",
                 &["starved"],
-                !(next.starved ^ (stops | (q.starved & !begins))),
+                next.starved.equals(stops | (q.starved & !begins)),
             ),
         ]
     }

@@ -116,7 +116,7 @@ impl Circuit for Scaler {
         let begun = next.busy & next.bit_index.is_zero() & held;
         let counted = next.bit_index.equals(q.bit_index + 1) & !next.bit_index.is_zero();
         let over = q.bit_index.equals(self.gain as u64 - 1);
-        let steps = (over ^ (next.busy & counted)) & !(over ^ next.done);
+        let steps = (over ^ (next.busy & counted)) & over.equals(next.done);
         let runs = i.clear.mux(!next.busy & !next.done, steps);
         // Twice a value whose highest bit is high is above every word.
         let highest = |word: U| word.bit(self.value - 1);
@@ -124,12 +124,12 @@ impl Circuit for Scaler {
         vec![
             Property::given(
                 "the value is below half of the range when start is high",
-                !i.start | !highest(i.value),
+                i.start.implies(!highest(i.value)),
             ),
             Property::step(
                 "a start begins a product unless one is running or clear is high",
                 &["busy", "factor", "bits"],
-                !taken | begun,
+                taken.implies(begun),
             ),
             Property::step(
                 "each bit of the gain is used once, and done follows the last one",
@@ -149,7 +149,7 @@ impl Circuit for Scaler {
             Property::helper(
                 "while busy is high, the partial product is at most the value",
                 &["scaled", "busy"],
-                !q.busy | !q.factor.below(q.scaled),
+                q.busy.implies(!q.factor.below(q.scaled)),
             ),
             Property::helper(
                 "the value that is being scaled is below half of the range",
@@ -161,9 +161,8 @@ impl Circuit for Scaler {
 }
 
 impl Specified for Scaler {
-    /// Keeps the assumption. Without `start` the words are not looked at.
+    /// Without `start` the words are not looked at.
     fn applies(&self, i: &In<Value>) -> bool {
-        let given = i.value > 0 || i.gain > 0;
-        i.value >> (self.value - 1) == 0 && (i.start || !given)
+        i.start || (i.value, i.gain) == (0, 0)
     }
 }

@@ -73,7 +73,7 @@ impl Circuit for Shifter {
         // One case for each distance; a shift by a constant is the division.
         let case = |by: usize| {
             let shifted = w.shifted.equals(i.word.shift_right(by));
-            !i.by.equals(by as u64) | shifted
+            i.by.equals(by as u64).implies(shifted)
         };
         vec![Property::always(
             "the result is the word divided by 2^by, rounded down",

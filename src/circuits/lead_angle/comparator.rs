@@ -168,27 +168,27 @@ impl Circuit for Comparator {
             Property::always(
                 "crossing is high if and only if a sample arrives at the target or steps over it",
                 &["crossing", "difference", "side"],
-                !(w.crossing ^ crosses),
+                w.crossing.equals(crosses),
             ),
             Property::always(
                 "fire is high if and only if crossing is high while control is low",
                 &["fire"],
-                !(w.fire ^ (w.crossing & !q.control)),
+                w.fire.equals(w.crossing & !q.control),
             ),
             Property::step(
                 "control is high from the tick after fire or halt until the next arm",
                 &["control"],
-                !(next.control ^ control),
+                next.control.equals(control),
             ),
             Property::step(
                 "fire sets upward if the position came from below, and nothing else changes upward",
                 &["upward"],
-                !(next.upward ^ upward),
+                next.upward.equals(upward),
             ),
             Property::step(
                 "armed is high from the tick after the first arm",
                 &["armed"],
-                !(next.armed ^ (q.armed | i.arm)),
+                next.armed.equals(q.armed | i.arm),
             ),
             Property::step(
                 "side is that of the last comparison since arm, and unknown before the first",

@@ -144,7 +144,7 @@ impl Circuit for CompletionDetector {
             Property::step(
                 "complete follows standstill, effect or the time limit, which sets timed_out",
                 &["complete", "timed_out"],
-                !(next.complete ^ completes) & !(next.timed_out ^ timed_out),
+                next.complete.equals(completes) & next.timed_out.equals(timed_out),
             ),
             Property::step(
                 "while active is high, elapsed counts all samples and still those at rest",

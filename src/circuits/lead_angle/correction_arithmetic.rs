@@ -180,9 +180,9 @@ impl Circuit for CorrectionArithmetic {
         let sown = learns & i.lead_time.is_zero() & !i.error.is_zero();
         let divides = learns & !i.lead_time.is_zero() & !i.overrun.is_zero();
 
-        let corrected = !(next.corrected ^ (divided | (i.complete & !w.divide)));
-        let dividing = !(next.dividing ^ (w.divide | (q.dividing & !i.done)));
-        let learned = !(next.learned ^ (sown | divided));
+        let corrected = next.corrected.equals(divided | (i.complete & !w.divide));
+        let dividing = next.dividing.equals(w.divide | (q.dividing & !i.done));
+        let learned = next.learned.equals(sown | divided);
         let seeded = !sown | divided | next.raw.equals(i.seed);
         let raw = next.raw.resize(self.word());
         let opposed = i.error.is_negative() ^ i.overrun.is_negative();
@@ -197,25 +197,25 @@ impl Circuit for CorrectionArithmetic {
             Property::step(
                 "a lead time of 0 with an error learns seed, and any other learns by division",
                 &["learned", "divide", "raw"],
-                learned & seeded & !(w.divide ^ divides),
+                learned & seeded & w.divide.equals(divides),
             ),
             Property::step(
                 "raw is lead_time plus or minus quotient, limited to codes from 1 to the last",
                 &["raw"],
-                !divided | raw.equals(self.limited(i, q.negative)),
+                divided.implies(raw.equals(self.limited(i, q.negative))),
             ),
             Property::step(
                 "a division sets negative if error and overrun have opposite signs",
                 &["negative"],
-                !w.divide | none | !(next.negative ^ opposed),
+                w.divide.implies(none | next.negative.equals(opposed)),
             ),
             Property::given(
                 "lead_time is from 1 to the largest code when a division ends",
-                !divided | !(i.lead_time.is_zero() | last.below(i.lead_time)),
+                divided.implies(!(i.lead_time.is_zero() | last.below(i.lead_time))),
             ),
             Property::given(
                 "quotient is below half of its range when a division ends",
-                !divided | !i.quotient.bit(self.word() - 1),
+                divided.implies(!i.quotient.bit(self.word() - 1)),
             ),
         ]
     }

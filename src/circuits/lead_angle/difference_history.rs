@@ -113,9 +113,13 @@ impl Circuit for DifferenceHistory {
     fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
         let (i, q, next) = (&now.i, &now.q, &now.next.q);
         let sample = i.position.unsigned();
-        let old = q.stages.read(i.tap - 1).signed();
         let taken = i.ck & is_kept(self.stages, i.tap);
-        let difference = taken.mux(i.position - old, q.pair.difference);
+        // One case for each tap.
+        let cases = q.stages.iter().enumerate().map(|(stage, old)| {
+            let difference = next.pair.difference.equals(i.position - old.signed());
+            (taken & i.tap.equals(stage as u64 + 1)).implies(difference)
+        });
+        let stays = next.pair.difference.equals(q.pair.difference);
         vec![
             Property::step(
                 "at CK every sample moves to the next stage, and between CKs no stage changes",
@@ -125,7 +129,7 @@ impl Circuit for DifferenceHistory {
             Property::step(
                 "only CK changes difference, to the distance from the sample of tap CKs ago",
                 &["pair.difference"],
-                next.pair.difference.equals(difference),
+                Bit::all(cases) & (taken | stays),
             ),
         ]
     }

@@ -149,7 +149,7 @@ impl Circuit for GrayReceiver {
             Property::always(
                 "take is high three ticks after strobe rises, with the word's place in the turn",
                 &["place", "outside", "take"],
-                !(w.take ^ rises) & placed,
+                w.take.equals(rises) & placed,
             ),
             Property::step(
                 "code passes two flip-flops and strobe four, one per tick",

@@ -169,7 +169,7 @@ impl PhaseCounter {
         let next = now.next.q.phase.resize(self.phase + 1);
         let even = counts.shift_right(1).shift_left(1);
         let first_half = phase.shift_left(1).below(even);
-        next.equals(ends.mux(0, phase + 1)) & !(now.w.square_wave ^ first_half)
+        next.equals(ends.mux(0, phase + 1)) & now.w.square_wave.equals(first_half)
     }
 
     /// High if a crossing, and nothing else, stores the phase of two ticks ago.
@@ -179,7 +179,7 @@ impl PhaseCounter {
         let phase = q.phase.resize(wide);
         let seen = phase.below(SEEN).mux(phase + counts, phase) - SEEN;
         let place = crosses.mux(seen, q.place.resize(wide));
-        let crossed = !(next.crossed ^ (q.crossed | crosses));
+        let crossed = next.crossed.equals(q.crossed | crosses);
         let levels = q.sync_secondary.slice(0, 2).join(now.i.secondary.word());
         let passed = next.sync_secondary.equals(levels);
         next.place.resize(wide).equals(place) & crossed & passed
@@ -199,7 +199,7 @@ impl PhaseCounter {
         let fault = early | late | (q.fault & !ends);
         let takes = ends & (q.crossed | q.fault);
         let measured = next.elapsed.equals(elapsed);
-        measured & !(next.fault ^ fault) & !(w.take ^ takes)
+        measured & next.fault.equals(fault) & w.take.equals(takes)
     }
 }
 

@@ -180,7 +180,7 @@ impl Circuit for PositionHistory {
             Property::step(
                 "fresh follows CK, and enough is high if tap does not reach beyond the restart",
                 &["pair.fresh", "pair.enough"],
-                !(next.fresh ^ fresh) & !(next.enough ^ enough),
+                next.fresh.equals(fresh) & next.enough.equals(enough),
             ),
             Property::step(
                 "samples counts the samples since restart, up to K",

@@ -132,7 +132,7 @@ impl Circuit for RatioLogic {
         let none = time.is_zero();
         let nothing = w.ratio.is_zero() & w.tap.is_zero() & w.on_grid;
         let mut known = !none | nothing;
-        let mut around = !(w.code.is_zero() ^ none);
+        let mut around = w.code.is_zero().equals(none);
         let mut on_grid = none;
         for codes in self.codes() {
             let is_code = codes.reach(time) & is_multiple(codes.ratio, time);

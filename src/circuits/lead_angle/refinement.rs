@@ -160,12 +160,12 @@ impl Circuit for Refinement {
             Property::always(
                 "divide is high at start, and after a first division with error below overrun",
                 &["divide", "second_factor"],
-                !(w.divide ^ (starts | again)) & words & half,
+                w.divide.equals(starts | again) & words & half,
             ),
             Property::step(
                 "an error below the overrun needs a second division, and done follows the last",
                 &["state", "done"],
-                next.state.equals(expected) & !(next.done ^ over),
+                next.state.equals(expected) & next.done.equals(over),
             ),
             Property::step(
                 "start in idle stores error_amount and overrun_amount, and otherwise they stay",

@@ -118,17 +118,17 @@ impl Circuit for SpeedDetector {
             Property::step(
                 "only the last CK of a gate sets speed, to the distance moved in the gate",
                 &["speed", "enough"],
-                measured & !(next.enough ^ enough),
+                measured & next.enough.equals(enough),
             ),
             Property::step(
                 "a gate begins when the previous one ends, or with the first sample",
                 &["gate_position", "count", "begun"],
-                next.gate_position.equals(start) & counts & !(next.begun ^ begun),
+                next.gate_position.equals(start) & counts & next.begun.equals(begun),
             ),
             Property::step(
                 "present holds the last sample, and fresh is high in the tick after CK",
                 &["present", "fresh"],
-                next.present.equals(sample) & !(next.fresh ^ fresh),
+                next.present.equals(sample) & next.fresh.equals(fresh),
             ),
             Property::helper(
                 "the count never reaches its greatest value",

@@ -177,7 +177,7 @@ impl Circuit for StepSequencer {
         let (i, q, next) = (&now.i, &now.q, &now.next.q);
         let is = |state: u64| q.state.equals(state);
         let to = |state: u64| next.state.equals(state);
-        let outputs = !(q.load ^ is(LOAD)) & !(q.arm ^ is(ARM)) & !(q.braking ^ is(BRAKE));
+        let outputs = q.load.equals(is(LOAD)) & q.arm.equals(is(ARM)) & q.braking.equals(is(BRAKE));
         let drive = to(MOVE) | (i.passing & q.drive & !to(IDLE));
 
         let following = q.step.below(i.last_step).mux(q.step + 1, 0);
@@ -205,7 +205,7 @@ impl Circuit for StepSequencer {
             Property::step(
                 "drive is high in move, low in idle, and elsewhere stays high only with passing",
                 &["drive"],
-                !(next.drive ^ drive),
+                next.drive.equals(drive),
             ),
             Property::step(
                 "step advances at the end of rest, from last_step to 0",
@@ -215,12 +215,12 @@ impl Circuit for StepSequencer {
             Property::step(
                 "in arm, reverse is set for the shorter way to the target, and otherwise it stays",
                 &["reverse"],
-                !(next.reverse ^ reverse),
+                next.reverse.equals(reverse),
             ),
             Property::step(
                 "the first halt in move pulses halting; it and a stop in place of an operation set missed",
                 &["halting", "missed"],
-                !(next.halting ^ halts) & !(next.missed ^ missed),
+                next.halting.equals(halts) & next.missed.equals(missed),
             ),
             Property::step(
                 "count counts CKs in rest, and is 0 otherwise",

@@ -146,7 +146,7 @@ impl Circuit for TimeData {
             Property::step(
                 "refused is set by a write that is not stored, and stays until clear",
                 &["refused"],
-                !(next.refused ^ refused),
+                next.refused.equals(refused),
             ),
         ]
     }

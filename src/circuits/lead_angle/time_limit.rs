@@ -63,7 +63,7 @@ impl Circuit for TimeLimit {
         vec![Property::always(
             "code is lead_time limited to the history, and on_grid is low if it was limited",
             &["code", "on_grid"],
-            w.code.equals(limited) & !(w.on_grid ^ time.equals(w.code)),
+            w.code.equals(limited) & w.on_grid.equals(time.equals(w.code)),
         )]
     }
 }

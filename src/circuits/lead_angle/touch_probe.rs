@@ -76,12 +76,12 @@ impl Circuit for TouchProbe {
         let first = i.active & !q.taken & rises;
         let taken = i.active & (q.taken | rises);
         let latched = next.latched.equals(first.mux(i.position, q.latched));
-        let before = !(next.effect_before ^ i.effect);
+        let before = next.effect_before.equals(i.effect);
         vec![
             Property::step(
                 "the first rise of effect while active is high stores the position in latched",
                 &["taken", "latched"],
-                !(next.taken ^ taken) & latched & before,
+                next.taken.equals(taken) & latched & before,
             ),
             Property::always(
                 "measured is latched after an effect, and the present position before it",

@@ -169,7 +169,7 @@ impl Circuit for TrackingLoop {
 
     fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
         let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
-        let (error, done) = (self.rounded(i), i.done);
+        let (error, done) = (w.error.resize(self.phase()), i.done);
         let speed = q.speed + error;
         let gained = error.shift_left(2 + self.smoothing);
         let phase = q.phase + (speed + gained).unsigned();
@@ -181,6 +181,11 @@ impl Circuit for TrackingLoop {
         let small = i.in_phase.below(1i64 << (self.angle - 2));
         let length = i.quadrature.magnitude().plus(i.in_phase.magnitude());
         vec![
+            Property::always(
+                "the error is quadrature with the magnitude of a negative in_phase, rounded",
+                &["error"],
+                error.equals(self.rounded(i)),
+            ),
             Property::step(
                 "only a conversion changes speed and phase, and it corrects them by the error",
                 &["speed", "phase"],
@@ -189,7 +194,7 @@ impl Circuit for TrackingLoop {
             Property::step(
                 "take is high with done once settled, and fault while in_phase is too small",
                 &["take", "settled", "fault"],
-                !(w.take ^ (done & over)) & next.settled.equals(counts) & !(w.fault ^ small),
+                w.take.equals(done & over) & next.settled.equals(counts) & w.fault.equals(small),
             ),
             // Each winding is at most full scale, 2^(A − 1), and the gain of the CORDIC below 2.
             Property::given(

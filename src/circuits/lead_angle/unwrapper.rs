@@ -145,7 +145,7 @@ impl Circuit for Unwrapper {
         let last = next.last.equals(counted.mux(i.place, q.last));
         let known = (q.known | counted) & !i.clear;
         let lost = (q.lost | (i.take & (i.fault | (q.known & far)))) & !i.clear;
-        let flags = !(next.sample ^ i.take) & !(next.lost ^ lost) & !(next.known ^ known);
+        let flags = next.sample.equals(i.take) & next.lost.equals(lost) & next.known.equals(known);
         vec![Property::step(
             "the first sample loads its place, and each later one adds the shorter way round",
             &["position", "last", "sample", "lost", "known"],

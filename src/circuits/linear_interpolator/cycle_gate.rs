@@ -50,7 +50,7 @@ impl Circuit for CycleGate {
         vec![Property::step(
             "hold is high one tick after exact_stop is high and an axis is not in position",
             &["hold"],
-            !(next.hold ^ (i.exact_stop & moves)),
+            next.hold.equals(i.exact_stop & moves),
         )]
     }
 }

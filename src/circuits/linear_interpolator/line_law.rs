@@ -118,6 +118,12 @@ impl Circuit for LineLaw {
         let (way_slave, way_master) =
             (way(q.integral_before, w.integral), way(q.sum_before, q.sum));
         let shorter = !master.magnitude().below(slave.magnitude());
+        let mul_div = &now.p.integrator.p.mul_div;
+        let (runs, ends, division) = (mul_div.w.busy, mul_div.q.done, &mul_div.q);
+        let width = division.by.width();
+        let divisor = division.by.equals(master.magnitude().resize(width));
+        let half = U::new(1, width).shift_left(self.integrator.position - 1);
+        let below = division.by.is_zero() | division.remainder.below(division.by);
         let [law, end, near] = self.law(now);
         let mut all = self.given(now).to_vec();
         all.extend([
@@ -125,15 +131,30 @@ impl Circuit for LineLaw {
             Property::always(
                 "B is less than Δx in magnitude, and has the sign that the rounding rule requires",
                 &["remainder"],
-                !settled(now) | (less & signed),
+                settled(now).implies(less & signed),
             ),
             end,
             Property::always(
                 "a slave with no more distance than its master never moves farther in a scan",
                 &["integral", "integral_before"],
-                !(settled(now) & shorter) | !way_master.below(way_slave),
+                (settled(now) & shorter).implies(!way_master.below(way_slave)),
             ),
             near,
+            Property::helper(
+                "the divider runs or ends while a division is running, and is by |Δx| then",
+                &["integrator.mul_div.by"],
+                settled(now).mux(!runs & !ends, (runs ^ ends) & divisor & !master.is_zero()),
+            ),
+            Property::helper(
+                "the rest of a division stays below its divisor, which is a distance",
+                &["integrator.mul_div.remainder"],
+                below & !half.below(division.by),
+            ),
+            Property::helper(
+                "B is less than Δx in every tick",
+                &["remainder"],
+                less & signed,
+            ),
         ]);
         all
     }
@@ -152,7 +173,7 @@ pub(super) fn first_remainder(rule: Rule, master: I) -> I {
 
 /// High if `value` lies between 0 and `end`, both included.
 pub(super) fn on_the_way(value: I, end: I) -> Bit {
-    let same_way = !(value.is_negative() ^ end.is_negative());
+    let same_way = value.is_negative().equals(end.is_negative());
     let beyond = end.magnitude().below_any(value.magnitude());
     value.is_zero() | (same_way & !beyond)
 }
@@ -184,7 +205,8 @@ impl LineLaw {
             ),
             Property::given(
                 "the sum of the increments stays on the segment",
-                !i.start | on_the_way(q.sum.plus(i.increment), q.held_master),
+                i.start
+                    .implies(on_the_way(q.sum.plus(i.increment), q.held_master)),
             ),
         ]
     }
@@ -209,29 +231,26 @@ impl LineLaw {
             Property::always(
                 "after every scan, Δx·I + B equals Δy·Σδx + B0",
                 &["integral", "remainder", "sum"],
-                !settled(now) | left,
+                settled(now).implies(left),
             ),
             Property::always(
                 "at the end of the line, I equals Δy and B equals B0",
                 &["integral", "remainder"],
-                !(settled(now) & arrived) | at_end,
+                (settled(now) & arrived).implies(at_end),
             ),
             Property::always(
                 "the slave stays within one step of the line",
                 &["integral"],
-                !settled(now) | near,
+                settled(now).implies(near),
             ),
         ]
     }
 }
 
 impl Specified for LineLaw {
-    /// Keeps an assumption. Words are looked at with their strobes only.
+    /// Words are looked at with their strobes only.
     fn applies(&self, i: &In<Value>) -> bool {
         let quiet = |strobe: bool, word: i64| strobe || word == 0;
-        quiet(i.clear, i.master)
-            && quiet(i.clear, i.slave)
-            && quiet(i.start, i.increment)
-            && !(i.clear && i.start)
+        quiet(i.clear, i.master) && quiet(i.clear, i.slave) && quiet(i.start, i.increment)
     }
 }

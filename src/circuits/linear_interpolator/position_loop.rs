@@ -103,13 +103,13 @@ impl Circuit for PositionLoop {
         let drive = now.next.p.control.q.speed_ref;
         let way = i.command - counter.position;
         let moves = !way.is_zero() & !i.gain.is_zero();
-        let towards = moves & !(drive.is_negative() ^ way.is_negative());
+        let towards = moves & drive.is_negative().equals(way.is_negative());
         let there = counter.position.equals(i.command);
         vec![
             Property::step(
                 "a scan sets speed_ref towards the command, and to 0 at the command",
                 &["speed_ref", "command"],
-                !i.scan | drive.is_zero() | towards,
+                i.scan.implies(drive.is_zero() | towards),
             ),
             Property::step(
                 "between scans, speed_ref keeps its value",
@@ -119,12 +119,12 @@ impl Circuit for PositionLoop {
             Property::step(
                 "clear sets feedback to 0 and resets lost",
                 &["feedback", "lost"],
-                !i.clear | (cleared.position.is_zero() & !cleared.lost),
+                i.clear.implies(cleared.position.is_zero() & !cleared.lost),
             ),
             Property::always(
                 "with a window of 0, in_position is high if and only if feedback equals command",
                 &["in_position", "feedback"],
-                !i.window.is_zero() | !(w.in_position ^ there),
+                i.window.is_zero().implies(w.in_position.equals(there)),
             ),
         ]
     }

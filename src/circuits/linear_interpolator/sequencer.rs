@@ -300,52 +300,54 @@ impl Circuit for Sequencer {
                     MasterAxis::Y => "Y is the master axis unless its distance is 0",
                 },
                 &["swapped", "master", "slave"],
-                !plan | (swapped & y_first) | (!swapped & x_first),
+                plan.implies((swapped & y_first) | (!swapped & x_first)),
             ),
             Property::step(
                 "fetch stores the distances to the target, and too_far if one overflows",
                 &["delta_x", "delta_y", "too_far"],
-                !fetch | (near_x & near_y & told),
+                fetch.implies(near_x & near_y & told),
             ),
             Property::step(
                 "with too_far, plan leads to idle and sets refused unless halt is high",
                 &["state", "refused"],
-                !(q.too_far & plan) | (ended & (i.halt | next.refused)),
+                (q.too_far & plan).implies(ended & (i.halt | next.refused)),
             ),
             Property::step(
                 "halt in any state but run leads to idle, without start and pop",
                 &["state", "start"],
-                !i.halt | runs | (ended & !next.start & !next.pop),
+                i.halt.implies(runs | (ended & !next.start & !next.pop)),
             ),
             Property::step(
                 "in run, the distances, the starting points and the master axis do not change",
                 &["master", "slave", "swapped"],
-                !runs | (stands & !(next.swapped ^ q.swapped)),
+                runs.implies(stands & next.swapped.equals(q.swapped)),
             ),
             Property::step(
                 "a scan sets advance only in run, and only while nothing is being computed",
                 &["advance"],
-                !next.advance | (i.pattern_ready & rests & runs & i.scan),
+                next.advance
+                    .implies(i.pattern_ready & rests & runs & i.scan),
             ),
             Property::step(
                 "start is high in the state begin, which follows plan, and in no other",
                 &["start", "state"],
-                !(next.start ^ starts) & (!next.start | plan),
+                next.start.equals(starts) & (!next.start | plan),
             ),
             Property::step(
                 "a scan in run sets late if the previous scan is still being computed",
                 &["late"],
-                !runs | !i.scan | !q.computing | (rests & waits) | next.late,
+                runs.implies(!i.scan | !q.computing | (rests & waits) | next.late),
             ),
             Property::always(
                 "over is low while load, integrating, pattern_valid or pattern_active is high",
                 &["over"],
-                !w.over | !(i.load | i.integrating | i.pattern_valid | i.pattern_active),
+                w.over
+                    .implies(!(i.load | i.integrating | i.pattern_valid | i.pattern_active)),
             ),
             Property::step(
                 "clear in idle makes home high, and nothing else resets late or refused",
                 &["late", "refused", "home"],
-                !(cleared ^ w.home) & (kept | cleared),
+                cleared.equals(w.home) & (kept | cleared),
             ),
             Property::narrowing(
                 "target and commands are 0 unless the state is fetch or plan",

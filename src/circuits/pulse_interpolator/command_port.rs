@@ -125,12 +125,12 @@ impl Circuit for CommandPort {
             Property::step(
                 "a command is stored as given if ready or now is high",
                 &["pending", "pending_base", "pending_last"],
-                !accepted | (next.pending & given),
+                accepted.implies(next.pending & given),
             ),
             Property::step(
                 "a waiting command stays unchanged until it is taken or replaced",
                 &["pending", "pending_base", "pending_last"],
-                !stays | (kept & (next.pending ^ i.take)),
+                stays.implies(kept & (next.pending ^ i.take)),
             ),
             Property::step(
                 "pending rises only after a tick with valid",
@@ -151,7 +151,8 @@ fn waits(q: &Reg<Open>, words: [U; 3], bits: [Bit; 3]) -> Bit {
     let [base, last, period] = words;
     let [cyclic, run, now] = bits;
     let pattern = q.pending_base.equals(base) & q.pending_last.equals(last);
-    let same = !(q.pending_cyclic ^ cyclic) & !(q.pending_run ^ run) & !(q.pending_now ^ now);
+    let same =
+        q.pending_cyclic.equals(cyclic) & q.pending_run.equals(run) & q.pending_now.equals(now);
     pattern & q.pending_period.equals(period) & same
 }
 

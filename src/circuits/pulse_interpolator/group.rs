@@ -223,10 +223,20 @@ impl Circuit for Group {
             next.sequencer.q.state.equals(p.sequencer.q.state),
         ];
         let elapsed = p.counter.q.count;
-        let timed = axes().map(|axis| {
-            let half_period = axis.p.memory.q.half_period;
-            pulse_generator::is_at(&axis.p.generator.q, half_period, elapsed)
-                & axis.p.sync.q.step.equals(axis.p.generator.q.toggle)
+        let starts = axes().map(|axis| {
+            let (generator, step) = (&axis.p.generator.q, axis.p.sync.q.step);
+            generator.count.is_zero() & !generator.toggle & !step
+        });
+        // From tick to tick: with the start, the place in the half-period after any number of ticks.
+        let goes_on = axes().zip(&next.axes).map(|(now, next)| {
+            let half_period = now.p.memory.q.half_period;
+            let after = &next.p.generator.q;
+            pulse_generator::goes_on(&now.p.generator.q, after, half_period)
+                & next.p.sync.q.step.equals(after.toggle)
+        });
+        let within = axes().map(|axis| {
+            let count = axis.p.generator.q.count;
+            count.is_zero() | count.below(axis.p.memory.q.half_period)
         });
         let quiet = axes().map(|axis| axis.p.memory.q.half_period.is_zero() & !axis.p.sync.q.step);
         vec![
@@ -236,14 +246,24 @@ impl Circuit for Group {
                 w.unit_rst | Bit::all(words.chain(kept)),
             ),
             Property::always(
+                "in the first tick of a unit time, no axis has begun a half-period",
+                &["counter.count", "step_x"],
+                elapsed.is_zero().implies(Bit::all(starts)),
+            ),
+            Property::step(
                 "each axis depends only on its half-period and the ticks since RST",
                 &["counter.count", "step_x"],
-                Bit::all(timed),
+                w.unit_rst | Bit::all(goes_on),
             ),
             Property::always(
                 "an idle group outputs no pulses",
                 &["busy", "step_x"],
                 w.busy | Bit::all(quiet),
+            ),
+            Property::helper(
+                "the ticks since RST stay below the unit time, the count of an axis below its half-period",
+                &["counter.count"],
+                (elapsed.is_zero() | elapsed.below(p.unit_time.q.active)) & Bit::all(within),
             ),
         ]
     }

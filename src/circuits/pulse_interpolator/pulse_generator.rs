@@ -17,7 +17,6 @@
 //! `count + 1 == half_period`.
 
 use super::Variant;
-use crate::circuits::division::divided;
 use crate::prelude::*;
 
 /// Pulse generator 20.
@@ -93,7 +92,7 @@ impl Circuit for PulseGenerator {
             Property::step(
                 "RST clears count and toggle",
                 &["count", "toggle", "unit_rst"],
-                !i.unit_rst | (next.count.is_zero() & !next.toggle),
+                i.unit_rst.implies(next.count.is_zero() & !next.toggle),
             ),
             Property::step(
                 "count stays below half_period or becomes 0",
@@ -103,12 +102,12 @@ impl Circuit for PulseGenerator {
             Property::step(
                 "pulse toggles at the end of each half-period, and only there",
                 &["pulse", "toggle", "count"],
-                none | !(toggles ^ over),
+                none | toggles.equals(over),
             ),
             Property::step(
                 "toggle takes the value of pulse, except at RST",
                 &["toggle", "pulse"],
-                i.unit_rst | !(next.toggle ^ w.pulse),
+                i.unit_rst | next.toggle.equals(w.pulse),
             ),
             Property::always(
                 "count never reaches its greatest value",
@@ -119,14 +118,14 @@ impl Circuit for PulseGenerator {
     }
 }
 
-/// High if count and toggle are those of `elapsed` ticks into a unit time with that half-period, if
-/// RST clears them.
-pub(super) fn is_at(q: &Reg<Open>, half_period: U, elapsed: U) -> Bit {
-    let width = elapsed.width().max(half_period.width());
-    let (toggles, count) = divided(elapsed.resize(width), half_period.resize(width));
+/// High if count and toggle go on by one tick: at the end of each half-period the count starts again
+/// and toggle changes.
+pub(super) fn goes_on(now: &Reg<Open>, next: &Reg<Open>, half_period: U) -> Bit {
+    let more = now.count + 1;
+    let ends = more.equals(half_period);
     half_period.is_zero().mux(
-        q.count.is_zero() & !q.toggle,
-        q.count.resize(width).equals(count) & q.toggle.equals(toggles.bit(0)),
+        next.count.is_zero() & !next.toggle,
+        next.count.equals(ends.mux(0, more)) & next.toggle.equals(now.toggle ^ ends),
     )
 }
 

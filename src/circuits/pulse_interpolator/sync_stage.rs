@@ -46,12 +46,12 @@ impl Circuit for SyncStage {
             Property::step(
                 "step is low in the tick after RST",
                 &["step", "unit_rst"],
-                !i.unit_rst | !next.step,
+                i.unit_rst.implies(!next.step),
             ),
             Property::step(
                 "step is pulse one tick later, except in the tick after RST",
                 &["step", "pulse"],
-                i.unit_rst | !(next.step ^ i.pulse),
+                i.unit_rst | next.step.equals(i.pulse),
             ),
         ]
     }

@@ -10,7 +10,6 @@
 
 use super::{PulseGenerator, SyncStage, Variant, counts, pulse_generator, sync_stage};
 use crate::circuits::blocks::{EnableCounter, enable_counter};
-use crate::circuits::division::divided;
 use crate::prelude::*;
 
 /// Sequence of unit times with arbitrary half-period and T.
@@ -41,6 +40,11 @@ signals! { for UnitLaw as c;
         pulses: U(c.width),
         /// Ghost: level of `step` one tick ago; low in the first tick of a unit time.
         lagged: Bit,
+        /// Ghost: whole half-periods of the current unit time before this tick; 0 if the half-period
+        /// is 0.
+        toggles: U(c.width),
+        /// Ghost: ticks since the last of them.
+        rest: U(c.width),
     }
     /// The circuits inside.
     pub struct Parts {
@@ -79,26 +83,46 @@ impl Circuit for UnitLaw {
         let sync = p.sync.settle(sync_stage::In { pulse, unit_rst });
         let step = sync.q.step;
         let counted = (step & !q.lagged).mux(q.pulses + 1, q.pulses);
+        let ends = (q.rest + 1).equals(half_period);
+        let toggles = ends.mux(q.toggles + 1, q.toggles);
         let next = Reg {
             held_half_period: unit_rst.mux(i.half_period, half_period),
             held_period: unit_rst.mux(i.period, period),
             pulses: unit_rst.mux(0, counted),
             lagged: !unit_rst & step,
+            toggles: unit_rst.mux(0, toggles),
+            rest: (unit_rst | ends).mux(0, q.rest + 1),
         };
         (Net { counted, step }, next)
     }
 
     fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
-        let (q, w) = (&now.q, &now.w);
+        let (q, w, next) = (&now.q, &now.w, &now.next.q);
         let (counter, generator) = (&now.p.counter, &now.p.generator.q);
         let elapsed = counter.q.count;
         let half_period = q.held_half_period;
         let none = q.held_period.is_zero();
         let end = none.mux(0, q.held_period - 1);
-        // The step signal toggles at each multiple of the half-period before the end; every other
-        // toggle is a rising edge.
-        let (toggles, _) = divided(end, half_period);
-        let rises = half_period.is_zero().mux(0, (toggles + 1).shift_right(1));
+        let still = half_period.is_zero();
+
+        // Quotient and rest of the elapsed ticks and the half-period, step by step.
+        let whole = elapsed - q.rest;
+        let next_whole = now.next.p.counter.q.count - next.rest;
+        let from_zero = next.toggles.is_zero() & next_whole.is_zero();
+        let one_more = next.toggles.equals(q.toggles + 1) & next_whole.equals(whole + half_period);
+        let stays = next.toggles.equals(q.toggles) & next_whole.equals(whole);
+        let steps = counter.w.enable.mux(from_zero, one_more | stays);
+        let divided = still.mux(
+            q.toggles.is_zero() & whole.is_zero(),
+            q.rest.below(half_period) & !elapsed.below(q.rest) & !whole.below(q.toggles),
+        );
+        // The step signal toggles at each multiple of the half-period; every other toggle is a
+        // rising edge.
+        let rises = (q.toggles + 1).shift_right(1);
+        let is_at = still.mux(
+            generator.count.is_zero() & !generator.toggle,
+            generator.count.equals(q.rest) & generator.toggle.equals(q.toggles.bit(0)),
+        );
         vec![
             Property::always(
                 "the number of pulses in a unit time obeys the count law",
@@ -113,13 +137,27 @@ impl Circuit for UnitLaw {
             Property::always(
                 "count, toggle and step depend only on the half-period and the ticks since RST",
                 &["generator.count", "generator.toggle", "step"],
-                pulse_generator::is_at(generator, half_period, elapsed)
-                    & w.step.equals(generator.toggle),
+                is_at & w.step.equals(generator.toggle),
             ),
             Property::always(
                 "a unit time has T ticks",
                 &["counter.count", "counter.enable"],
                 counter.w.enable.equals(elapsed.equals(end)),
+            ),
+            Property::step(
+                "toggles counts half-periods, and the ticks up to the rest grow by one with each",
+                &["toggles", "rest"],
+                steps,
+            ),
+            Property::always(
+                "rest is below the half-period, and toggles at most the other ticks since RST",
+                &["rest", "toggles"],
+                divided,
+            ),
+            Property::helper(
+                "the number of pulses so far obeys the count law",
+                &["counted", "toggles"],
+                w.counted.equals(rises),
             ),
         ]
     }

@@ -104,18 +104,20 @@ impl Circuit for VectorCorrection {
 
     fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
         let (i, q, next) = (&now.i, &now.q, &now.next.q);
-        let (vector, corrected) = match self.correction {
-            Correction::Vector => (i.target - i.response, i.command + i.target - i.response),
-            Correction::None => (I::new(0, self.width), i.command),
-            Correction::Steady => (i.target - i.command, i.target),
-            Correction::Feedback => (i.target, i.target + i.command),
+        let vector = match self.correction {
+            Correction::Vector => i.target - i.response,
+            Correction::None => I::new(0, self.width),
+            Correction::Steady => i.target - i.command,
+            Correction::Feedback => i.target,
         };
+        let added = (next.corrected - i.command).equals(vector);
+        let stays = next.corrected.equals(q.corrected);
         vec![Property::step(
             "corrected command minus command equals reference minus response",
             &["correction", "corrected", "fresh"],
             Bit::all([
                 next.correction.equals(i.correct.mux(vector, q.correction)),
-                next.corrected.equals(i.correct.mux(corrected, q.corrected)),
+                i.correct.mux(added, stays),
                 next.fresh.equals(i.correct),
             ]),
         )]

@@ -125,12 +125,12 @@ impl Circuit for QuadratureCounter {
             Property::always(
                 "illegal is high if and only if the encoder moves by half a period in one tick",
                 &["illegal"],
-                !(w.illegal ^ half),
+                w.illegal.equals(half),
             ),
             Property::step(
                 "an illegal step sets lost, which stays high until clear",
                 &["lost"],
-                !(next.lost ^ ((q.lost | half) & !i.clear)),
+                next.lost.equals((q.lost | half) & !i.clear),
             ),
             Property::step(
                 "a level advances one flip-flop per tick, and samples counts the first three",

@@ -138,7 +138,7 @@ impl Circuit for PositionControl {
         let wide = self.widths.position + 1;
         let (deviation, window) = (w.deviation.resize(wide), i.window.resize(wide).signed());
         let inside = !deviation.below(-window) & !window.below(deviation);
-        let held = next.speed_ref.equals(q.speed_ref) & !(next.saturated ^ q.saturated);
+        let held = next.speed_ref.equals(q.speed_ref) & next.saturated.equals(q.saturated);
         let at_limit = q.speed_ref.magnitude().equals(self.limit());
         vec![
             Property::always(
@@ -149,12 +149,12 @@ impl Circuit for PositionControl {
             Property::always(
                 "in_position is high if and only if deviation is at most window",
                 &["in_position"],
-                !(w.in_position ^ inside),
+                w.in_position.equals(inside),
             ),
             Property::step(
                 "a scan loads the nearest reference within the limits, halves away from zero",
                 &["speed_ref"],
-                !i.scan | self.is_nearest(i, w, next.speed_ref),
+                i.scan.implies(self.is_nearest(i, w, next.speed_ref)),
             ),
             Property::step(
                 "between scans, speed_ref and saturated keep their values",
@@ -164,7 +164,7 @@ impl Circuit for PositionControl {
             Property::always(
                 "saturated is high if and only if speed_ref is at its limit",
                 &["saturated"],
-                !(q.saturated ^ at_limit),
+                q.saturated.equals(at_limit),
             ),
         ]
     }
@@ -184,7 +184,7 @@ impl PositionControl {
         let near = product.below(exact + (one - self.half()));
         let limit = U::new(self.limit(), self.widths.converter);
         let limited = near | amount.equals(limit);
-        let same_sign = !(reference.is_negative() ^ w.deviation.is_negative());
+        let same_sign = reference.is_negative().equals(w.deviation.is_negative());
         let sign = amount.is_zero() | (!product.is_zero() & same_sign);
         !limit.below(amount) & reached & limited & sign
     }
