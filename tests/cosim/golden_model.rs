@@ -15,12 +15,13 @@ mod own_stimulus {
 
 const NOTE: &str = "rtl_notes/golden_model.md";
 const FILES: &str = "rtl_notes/golden_model";
-const GHOSTS: [&str; 5] = [
+const GHOSTS: [&str; 6] = [
     "unit_law.pulses",
     "unit_law.lagged",
     "unit_law.toggles",
     "unit_law.rest",
     "unit_law.counted",
+    "unit_law.ends",
 ];
 
 /// Shell functions for the commands of the note: the program as it was built, and no window.

@@ -143,7 +143,8 @@ impl Circuit for LineLaw {
             Property::helper(
                 "the divider runs or ends while a division is running, and is by |Δx| then",
                 &["integrator.mul_div.by"],
-                settled(now).mux(!runs & !ends, (runs ^ ends) & divisor & !master.is_zero()),
+                settled(now).mux(!runs & !ends, (runs ^ ends) & divisor & !master.is_zero())
+                    & !division.state.equals(3),
             ),
             Property::helper(
                 "the rest of a division stays below its divisor, which is a distance",

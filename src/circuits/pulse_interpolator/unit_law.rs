@@ -59,6 +59,8 @@ signals! { for UnitLaw as c;
     pub struct Net {
         /// Ghost: pulses of the current unit time, including this tick.
         counted: U(c.width),
+        /// Ghost: a half-period ends with this tick.
+        ends: Bit,
         /// Step pulses.
         pub step: Bit,
     }
@@ -93,7 +95,12 @@ impl Circuit for UnitLaw {
             toggles: unit_rst.mux(0, toggles),
             rest: (unit_rst | ends).mux(0, q.rest + 1),
         };
-        (Net { counted, step }, next)
+        let net = Net {
+            counted,
+            ends,
+            step,
+        };
+        (net, next)
     }
 
     fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
