@@ -185,18 +185,6 @@ impl<'t, 'f> Prover<'t, 'f> {
         Ok(())
     }
 
-    /// Proves the properties that no state violates.
-    fn every_state(&mut self) -> Result<(), NotSliced> {
-        for property in self.open(self.task.proved()) {
-            match self.ask(Start::Any, property, 0, &[])? {
-                Answer::Impossible => self.prove(property, Basis::EveryState, Vec::new()),
-                Answer::Possible => {}
-                Answer::Unknown => self.hard[property] = true,
-            }
-        }
-        Ok(())
-    }
-
     /// Returns a state in which an open property holds, and from which it is violated.
     fn not_inductive(
         &mut self,

@@ -1,8 +1,8 @@
-//! Proofs that hold whatever words the memories have.
+//! Proofs that need no more than a tick.
 
 use super::super::clauses::Answer;
 use super::super::frames::Start;
-use super::Prover;
+use super::{Basis, Prover};
 use crate::engine::sliced::NotSliced;
 
 impl Prover<'_, '_> {
@@ -22,6 +22,18 @@ impl Prover<'_, '_> {
         }
         any.induct(1)?;
         (self.found, self.spent, self.steps) = (any.found, any.spent, any.steps);
+        Ok(())
+    }
+
+    /// Proves the properties that no state violates.
+    pub(super) fn every_state(&mut self) -> Result<(), NotSliced> {
+        for property in self.open(self.task.proved()) {
+            match self.ask(Start::Any, property, 0, &[])? {
+                Answer::Impossible => self.prove(property, Basis::EveryState, Vec::new()),
+                Answer::Possible => {}
+                Answer::Unknown => self.hard[property] = true,
+            }
+        }
         Ok(())
     }
 }
