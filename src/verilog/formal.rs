@@ -95,7 +95,7 @@ fn shared(module: &Module, expressions: &Expressions<'_>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::prelude::*;
+    use crate::hdl::*;
     use crate::verilog::Verilog;
 
     /// Sum whose property computes what drives it.
