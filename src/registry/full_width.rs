@@ -10,10 +10,10 @@ use crate::sim::Elaborated;
 use rayon::prelude::*;
 use std::time::{Duration, Instant};
 
-/// Time for a property.
-const LIMIT: Duration = Duration::from_secs(10);
-/// Time for a property that is hard.
-const LONG: Duration = Duration::from_secs(60);
+/// Time for a property: far more than a proof takes, as the machine may be busy.
+const LIMIT: Duration = Duration::from_secs(60);
+/// Time for a property that may stay open.
+const ENOUGH: Duration = Duration::from_secs(10);
 /// Time for a property of a circuit with a fault: what is left open may take all of it.
 const SHORT: Duration = Duration::from_millis(300);
 
@@ -71,10 +71,14 @@ fn is_refuted(concluded: &Concluded<Violation>) -> bool {
 }
 
 /// Returns the number of proved properties of a circuit, and the others.
-fn prove(entry: &Entry, limit: Duration) -> (usize, Vec<String>) {
+fn prove(entry: &Entry) -> (usize, Vec<String>) {
     let start = Instant::now();
     let model = entry.full().model().expect("it can be elaborated");
     let (mut proved, mut others) = (0, Vec::new());
+    let limit = match HARD.contains(&entry.name) {
+        true => ENOUGH,
+        false => LIMIT,
+    };
     for concluded in concluded(&model, limit) {
         let (time, property) = (concluded.time.as_secs_f64(), &concluded.property);
         assert!(!is_refuted(&concluded), "{}: {concluded:?}", entry.name);
@@ -94,7 +98,7 @@ fn prove(entry: &Entry, limit: Duration) -> (usize, Vec<String>) {
 fn properties_are_proved_at_full_width() {
     let mut easy: Vec<_> = circuits().collect();
     easy.retain(|it| !HARD.contains(&it.name) && !LARGE.contains(&it.name));
-    let all = easy.into_par_iter().map(|entry| prove(entry, LIMIT));
+    let all = easy.into_par_iter().map(prove);
     let all: Vec<_> = all.collect();
     let open: Vec<_> = all.iter().flat_map(|(_, open)| open).collect();
     assert!(open.is_empty(), "{open:#?}");
@@ -105,12 +109,16 @@ fn properties_are_proved_at_full_width() {
 #[test]
 #[ignore = "takes long"]
 fn all_properties_but_few_are_proved_at_full_width() {
-    let all: Vec<_> = circuits().collect();
-    let all = all.into_par_iter().map(|entry| prove(entry, LONG));
-    let all: Vec<_> = all.collect();
+    let mut all: Vec<_> = circuits().collect();
+    all.retain(|it| HARD.contains(&it.name) || LARGE.contains(&it.name));
+    let all: Vec<_> = all.into_par_iter().map(prove).collect();
     let open: Vec<_> = all.iter().flat_map(|(_, open)| open).collect();
     println!("{open:#?}");
-    let mut others = open.iter().filter(|it| !it.starts_with("line_law: "));
+    let is_listed = |it: &str| {
+        let mut listed = NOT_KEPT.iter();
+        it.starts_with("line_law: ") || listed.any(|(_, assumption, _)| it.ends_with(assumption))
+    };
+    let mut others = open.iter().filter(|it| !is_listed(it));
     assert_eq!(others.next(), None);
 }
 
@@ -211,7 +219,7 @@ fn visited(entry: &Entry, model: Elaborated) -> Verdict {
 /// Compares the results for a netlist of the small circuit with a visit of all its states. Returns
 /// true if both find a violation.
 fn agree(entry: &Entry, model: &Elaborated, what: &str) -> bool {
-    let all = concluded(model, LIMIT);
+    let all = concluded(model, ENOUGH);
     let what = format!("{}, {what}: {all:?}", entry.name);
     match visited(entry, model.clone()) {
         Verdict::Proved(_) => {
