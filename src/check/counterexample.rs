@@ -7,7 +7,9 @@ use crate::netlist::Role;
 use crate::sim::{Described, Elaborated, RunError};
 use crate::trace::value::show;
 use crate::trace::{self, Clock, Start};
+use rustc_hash::FxHasher;
 use std::fmt::{self, Write as _};
+use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 /// Number of ticks in the table, counted back from the violation.
@@ -146,12 +148,24 @@ pub(super) fn save(
     trace::play(&model, start, inputs, clock, dir, &name)
 }
 
-/// Returns the stem of the file names.
+/// Greatest length of a stem but for its mark: a file name may have 255 bytes.
+const STEM: usize = 200;
+
+/// Returns the stem of the file names. Names that would be lost or cut get a mark of their own.
 fn stem(circuit: &str, invariant: &str) -> String {
-    format!("{circuit} {invariant}")
+    let name = format!("{circuit} {invariant}");
+    let plain = |c: char| c.is_ascii_alphanumeric() || " _,.'-".contains(c);
+    let written = name
         .chars()
-        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
-        .collect()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
+    let mut stem: String = written.take(STEM).collect();
+    if !name.chars().all(plain) || name.chars().count() > STEM {
+        let mut hasher = FxHasher::default();
+        name.hash(&mut hasher);
+        // Writing to a string does not fail.
+        let _ = write!(stem, "_{:08x}", hasher.finish() as u32);
+    }
+    stem
 }
 
 /// Returns the text above the table.
@@ -235,4 +249,25 @@ fn aligned(rows: &[Vec<String>]) -> String {
         lines.push('\n');
     }
     lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::stem;
+
+    #[test]
+    fn each_property_has_files_of_its_own() {
+        assert_eq!(
+            stem("axis", "a rise, then a fall"),
+            "axis_a_rise__then_a_fall"
+        );
+        assert_ne!(stem("axis", "n < 3"), stem("axis", "n > 3"));
+        assert_ne!(stem("axis", "数"), stem("axis", "計"));
+        let long = "word ".repeat(60);
+        assert_ne!(
+            stem("axis", &format!("{long}a")),
+            stem("axis", &format!("{long}b"))
+        );
+        assert!(stem("axis", &long).len() < 220);
+    }
 }

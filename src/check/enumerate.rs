@@ -35,7 +35,7 @@ pub enum CheckError {
 crate::netlist::debug_as_display!(CheckError);
 
 /// Returns all errors, one per line.
-fn lines(errors: &[UnknownSignal]) -> String {
+pub(super) fn lines(errors: &[UnknownSignal]) -> String {
     let lines: Vec<_> = errors.iter().map(UnknownSignal::to_string).collect();
     lines.join("\n")
 }

@@ -159,7 +159,7 @@ fn signals_of<C: Circuit>(circuit: &C, site: Site, more: More<'_>) -> Nets {
     drive(&wanted, given, <C::Reg<Edge> as Walk<Edge>>::SITE);
     names::check(site, circuit.name());
     elaboration(|elaboration| mutation::visit(circuit.name(), elaboration, &mut nets));
-    property::note(circuit, &nets);
+    property::note(circuit, &nets, site);
     nets
 }
 

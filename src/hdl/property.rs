@@ -1,14 +1,15 @@
 //! Properties of a circuit, written in words.
 
 use super::Circuit;
-use super::build::{self, builder, elaboration, node};
+use super::build::{self, builder, elaboration, mistake, node};
 use super::elaborate::Nets;
 use super::leaves::Nodes;
 use super::memory::Contents;
 use super::record::{Cells, MemoryShape, Pass, Record, Source};
 use super::view::{self, Open, Wire};
 use super::words::Bit;
-use crate::netlist::{Assertion, Claim, Field, Id, Node, Register, Role, Shape};
+use crate::netlist::{Assertion, Claim, Field, Id, Node, Register, Role, Shape, Site};
+use rustc_hash::FxHashSet;
 use std::fmt;
 
 /// Signals of a settled tick, and the registers after its edge.
@@ -49,7 +50,7 @@ impl<C: Circuit> fmt::Debug for After<C> {
 /// width. The printed Verilog has it as an assertion for other tools.
 #[derive(Debug, Clone)]
 pub struct Property {
-    /// The statement.
+    /// The statement: a line of text that no other property of the circuit has.
     pub name: &'static str,
     /// Use of the statement in proofs.
     pub claim: Claim,
@@ -112,7 +113,7 @@ impl Property {
 
 /// Adds the properties of a circuit to the module under construction. A property over an edge is
 /// stated about the tick before and the registers of this one.
-pub(super) fn note<C: Circuit>(circuit: &C, nets: &Nets) {
+pub(super) fn note<C: Circuit>(circuit: &C, nets: &Nets, site: Site) {
     builder(|builder| builder.logic = builder.nodes.len());
     // The signals of a part with mistakes are unknown.
     if elaboration(|elaboration| !elaboration.mistakes.is_empty()) {
@@ -124,7 +125,54 @@ pub(super) fn note<C: Circuit>(circuit: &C, nets: &Nets) {
         return;
     }
     let past = now.past();
-    assert(always, circuit.properties(&past.moment(circuit, &now)));
+    let steps = circuit.properties(&past.moment(circuit, &now));
+    for what in wrong(&always, &steps) {
+        mistake(site, what);
+    }
+    assert(always, steps);
+}
+
+/// Returns the mistakes of properties, stated about this tick and about the edge before it.
+fn wrong(always: &[Property], steps: &[Property]) -> Vec<String> {
+    let mut wrong = Vec::new();
+    for (index, (property, over)) in always.iter().zip(steps).enumerate() {
+        let name = property.name;
+        if name.trim().is_empty() || name.contains(char::is_control) {
+            wrong.push(format!(
+                "property {name:?}: a name is one line of text and is not empty"
+            ));
+        }
+        if always[..index].iter().any(|other| other.name == name) {
+            wrong.push(format!("two properties are called `{name}`"));
+        }
+        if !property.step && reads_after(over.holds.0) {
+            wrong.push(format!(
+                "property `{name}` reads registers after the edge, which only `Property::step` may"
+            ));
+        }
+    }
+    wrong
+}
+
+/// True if a node of a property over an edge reads a signal or a memory after the edge.
+fn reads_after(id: Id) -> bool {
+    let mut seen = FxHashSet::default();
+    let mut open = vec![id];
+    while let Some(id) = open.pop() {
+        if !seen.insert(id) {
+            continue;
+        }
+        let (here, _) = builder(|builder| builder.nodes[id]);
+        match here {
+            Node::Past(_) => {}
+            Node::Signal(_) | Node::Port { .. } => return true,
+            Node::Read(memory, _) if !builder(|builder| builder.roms.contains(&memory)) => {
+                return true;
+            }
+            _ => open.extend(here.operands()),
+        }
+    }
+    false
 }
 
 /// Adds properties to the module under construction: `always` states each about this tick, `steps`

@@ -1,6 +1,8 @@
 //! Results of proofs at full width.
 
 use super::not_inductive::{Clause, NotInductive};
+use crate::check::blamed::UnknownSignal;
+use crate::check::enumerate::lines;
 use crate::engine::EngineError;
 use std::fmt;
 use std::time::Duration;
@@ -110,6 +112,9 @@ pub enum InductError {
         /// Name of the circuit.
         circuit: String,
     },
+    /// Properties name signals that the circuit does not have.
+    #[error("{}", lines(.0))]
+    Signals(Vec<UnknownSignal>),
     /// The assumptions about the inputs exclude all of them.
     #[error(
         "{circuit}: no input keeps all assumptions up to tick {tick}; correct the statements that `given` makes"

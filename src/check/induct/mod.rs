@@ -39,6 +39,7 @@ mod unrolled;
 pub use conclusion::{By, Concluded, Conclusion, InductError};
 pub use not_inductive::{Clause, NotInductive};
 
+use super::blamed;
 use super::counterexample::Violation;
 use super::{Counterexample, Fault};
 use crate::engine::{Statement, Watch};
@@ -52,6 +53,8 @@ use std::time::Duration;
 
 /// Time for a property by default.
 const LIMIT: Duration = Duration::from_secs(10);
+/// Greatest time for a property: ten years.
+const LONGEST: Duration = Duration::from_secs(10 * 365 * 86_400);
 
 /// Greatest size of all memories in bits whose words are state.
 const MEMORY_BITS: usize = 1 << 17;
@@ -112,7 +115,7 @@ impl<C: Circuit> Induct<'_, C> {
     /// Limits the time for each property; 10 seconds by default. A check of its proof may take
     /// four times as long.
     pub fn limit(mut self, limit: Duration) -> Self {
-        self.limit = limit;
+        self.limit = limit.min(LONGEST);
         self
     }
 
@@ -178,6 +181,15 @@ pub(crate) fn conclude(
     let model = &whole;
     if !stated.iter().any(is_asked) {
         return Err(InductError::NoProperties { circuit: circuit() });
+    }
+    let own = stated.iter().filter(|it| it.path.is_empty());
+    let named = own.flat_map(|it| {
+        let signals = it.signals.iter();
+        signals.map(|&signal| (it.name.to_owned(), signal.to_owned()))
+    });
+    let unknown = blamed::unknown(model, named.collect());
+    if !unknown.is_empty() {
+        return Err(InductError::Signals(unknown));
     }
     let alone = Alone::of(model.design(), model.flat(), &stated, limit)?;
     let task = Task::new(model.flat(), &stated, &alone, is_asked, limit);

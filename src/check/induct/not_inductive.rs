@@ -18,6 +18,8 @@ use std::time::Instant;
 
 /// Greatest number of clauses that are shown.
 const SHOWN: usize = 5;
+/// Greatest number of words of the state that are printed.
+const WORDS: usize = 16;
 
 /// State and input ports, by their places in the netlist.
 #[derive(Debug)]
@@ -203,16 +205,22 @@ impl NotInductive {
 impl fmt::Display for NotInductive {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} is not inductive", self.property)?;
-        for (index, (signal, word)) in self.signals.iter().enumerate() {
+        for (index, (signal, word)) in self.signals.iter().take(WORDS).enumerate() {
             let before = if index == 0 { ": from " } else { ", " };
             write!(f, "{before}{signal} = {word}")?;
+        }
+        if let Some(more @ 1..) = self.signals.len().checked_sub(WORDS) {
+            write!(f, " and {more} more words")?;
         }
         write!(
             f,
             ", a state that may never come, it is violated a tick later"
         )?;
         for (index, clause) in self.clauses.iter().enumerate() {
-            let before = if index == 0 { "; excluded by: " } else { ", " };
+            let before = match index {
+                0 => "; excluded by what holds in the first ticks, perhaps always: ",
+                _ => ", ",
+            };
             write!(f, "{before}{clause}")?;
         }
         match self.more {
@@ -309,9 +317,17 @@ mod tests {
             inputs: Vec::new(),
         };
         let text = "it ends is not inductive: from count = 7, a state that may never come, it is \
-                    violated a tick later; excluded by: never state[0] & !busy";
+                    violated a tick later; excluded by what holds in the first ticks, perhaps \
+                    always: never state[0] & !busy";
         assert_eq!(open.to_string(), text);
         open.more = 3;
         assert_eq!(open.to_string(), format!("{text}, and 3 more"));
+        open.signals = vec![open.signals[0].clone(); 20];
+        let text = open.to_string();
+        assert!(
+            text.contains("count = 7 and 4 more words, a state"),
+            "{text}"
+        );
+        assert_eq!(text.matches("count = 7").count(), 16);
     }
 }

@@ -321,3 +321,58 @@ fn nothing_to_prove_and_no_input_are_errors() {
                 `given` makes";
     assert_eq!(error.to_string(), text);
 }
+
+#[test]
+fn a_limit_may_be_of_any_length() {
+    let stated: fn(&Moment<Counter>) -> Vec<Property> = |now| {
+        let last = now.q.state.below(3);
+        vec![Property::always(
+            "the state is one of three",
+            &["state"],
+            last,
+        )]
+    };
+    let counter = Counter { stated };
+    let found = induct(&counter).limit(Duration::MAX).run();
+    assert!(found.expect("it has a property")[0].conclusion.is_proved());
+    let found = induct(&counter).limit(Duration::ZERO).run();
+    assert!(!found.expect("it has a property")[0].conclusion.is_proved());
+}
+
+#[test]
+fn signals_that_do_not_exist_are_named() {
+    let stated: fn(&Moment<Counter>) -> Vec<Property> =
+        |now| vec![Property::always("it goes", &["goin"], now.q.going)];
+    let found = induct(&Counter { stated }).run();
+    let error = found.expect_err("there is no such signal").to_string();
+    assert!(
+        error.contains("names `goin`") && error.contains("going"),
+        "{error}"
+    );
+}
+
+#[test]
+fn properties_with_mistakes_are_refused() {
+    let stated: fn(&Moment<Counter>) -> Vec<Property> = |now| {
+        let (q, next) = (&now.q, &now.next.q);
+        let held = next.count.equals(q.count);
+        vec![
+            Property::always("the count stays", &["count"], held),
+            Property::given("the other stays", next.other.equals(q.other)),
+            Property::step("it goes", &["going"], next.going),
+            Property::helper("it goes", &["going"], q.going),
+            Property::always("two\nlines", &[], q.going),
+            Property::always(" ", &[], q.going),
+        ]
+    };
+    let wrong = crate::hdl::elaborate(&Counter { stated }).expect_err("it has mistakes");
+    let wrong: Vec<_> = wrong.0.iter().map(|it| it.what.as_str()).collect();
+    let expected = [
+        "property `the count stays` reads registers after the edge, which only `Property::step` may",
+        "property `the other stays` reads registers after the edge, which only `Property::step` may",
+        "two properties are called `it goes`",
+        "property \"two\\nlines\": a name is one line of text and is not empty",
+        "property \" \": a name is one line of text and is not empty",
+    ];
+    assert_eq!(wrong, expected);
+}
