@@ -39,7 +39,8 @@ pub enum Conclusion<R> {
     },
     /// A run from power-on violates the property.
     Refuted(R),
-    /// Neither a proof nor a counterexample was found in time.
+    /// Neither a proof nor a counterexample was found in time; or a read of a memory above the
+    /// limit of 131,072 bits, which may give any word, was needed for each violation.
     Open {
         /// State that may never come from which the property is violated, if one is known.
         from: Option<Box<NotInductive>>,
@@ -115,7 +116,7 @@ pub enum InductError {
     /// Properties name signals that the circuit does not have.
     #[error("{}", lines(.0))]
     Signals(Vec<UnknownSignal>),
-    /// The assumptions about the inputs exclude all of them.
+    /// No input keeps all assumptions in one of the first ticks.
     #[error(
         "{circuit}: no input keeps all assumptions up to tick {tick}; correct the statements that `given` makes"
     )]

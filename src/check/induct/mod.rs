@@ -13,12 +13,12 @@
 //! Statements that are [given](crate::hdl::Property::given) are assumed in every tick; those that
 //! only [narrow](crate::hdl::Property::narrowing) an exhaustive search are not.
 //!
-//! What a part of the circuit is given is nothing that the whole may assume: it is an obligation,
-//! and is proved as a property of the whole, in the netlist of the whole. The properties of such
-//! parts are proved there too, by the same induction, and help the others. So nothing is circular:
-//! no statement counts in a tick unless it is proved, or belongs to the ticks before, in which the
-//! induction assumes all that it proves. A part that is given nothing itself may keep what is given
-//! to the parts inside it [alone](alone), with free inputs.
+//! An assumption of a part is not assumed here: it is an obligation, and proved as a property of the
+//! whole circuit. The properties of such a part are proved there too, in the same induction, so that
+//! they can help. That is not circular: an induction assumes statements only in the ticks before the
+//! one that it asks about, and in this tick only statements that are already proved. A part without
+//! assumptions may keep those of the parts inside it with free inputs; it is then proved
+//! [alone](alone).
 //!
 //! Nothing is taken on trust: a solver of its own checks each proof again, and an engine replays
 //! each counterexample.
@@ -113,7 +113,7 @@ pub fn induct<C: Circuit>(circuit: &C) -> Induct<'_, C> {
 
 impl<C: Circuit> Induct<'_, C> {
     /// Limits the time for each property; 10 seconds by default. A check of its proof may take
-    /// four times as long.
+    /// four times as long. The time to unroll the circuit is not limited.
     pub fn limit(mut self, limit: Duration) -> Self {
         self.limit = limit.min(LONGEST);
         self
@@ -130,7 +130,9 @@ impl<C: Circuit> Induct<'_, C> {
     /// properties in their order, those of the parts' assumptions, and the circuit's own assumptions.
     ///
     /// # Errors
-    /// Returns an error if the circuit cannot be elaborated, or there is nothing to prove.
+    /// Returns an error if the circuit cannot be elaborated, there is nothing to prove, a property
+    /// names a signal that does not exist, no input keeps the assumptions in one of the first 12 ticks,
+    /// or a second check does not confirm a result.
     pub fn run(self) -> Result<Vec<Concluded<Counterexample<C>>>, InductError> {
         let model = match self.model {
             Some(model) => model,
@@ -171,7 +173,7 @@ impl<C: Circuit> fmt::Debug for Induct<'_, C> {
 /// Proves the properties of an elaborated circuit, and what its parts assume.
 ///
 /// # Errors
-/// Returns an error if there is nothing to prove.
+/// Returns the errors of [`Induct::run`].
 pub(crate) fn conclude(
     model: &Elaborated,
     limit: Duration,

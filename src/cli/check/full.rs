@@ -127,12 +127,11 @@ pub fn run(asked: Asked, out: &Path) -> Result<FullReport, Failure> {
                     let waves = save_induction(&from, &**circuit, out);
                     row.report = Some(with_waves(&from.to_string(), waves, &list));
                 }
-                Conclusion::TooLarge => {
-                    let narrower =
-                        entry.narrower(pairs, (row.part.as_deref(), &row.property), limit);
-                    row.proved_at = narrower.map(|widths| widths.into_iter().collect());
-                }
                 _ => {}
+            }
+            if matches!(row.full_width_by, FullBy::Open | FullBy::TooLarge) {
+                let narrower = entry.narrower(pairs, (row.part.as_deref(), &row.property), limit);
+                row.proved_at = narrower.map(|widths| widths.into_iter().collect());
             }
             row
         });
@@ -238,11 +237,16 @@ impl FullRow {
             FullBy::Search => format!("search, {clauses} clauses"),
             FullBy::Refuted => "REFUTED".to_owned(),
             FullBy::Assumed => "assumed".to_owned(),
-            FullBy::Open => "open".to_owned(),
-            FullBy::TooLarge => match &self.proved_at {
-                Some(widths) => format!("too large; proved at {}", range(widths)),
-                None => "too large".to_owned(),
-            },
+            FullBy::Open => self.narrower("open"),
+            FullBy::TooLarge => self.narrower("too large"),
+        }
+    }
+
+    /// Returns why there is no proof, and the widest width at which there is one.
+    fn narrower(&self, why: &str) -> String {
+        match &self.proved_at {
+            Some(widths) => format!("{why}; proved at {}", range(widths)),
+            None => why.to_owned(),
         }
     }
 }

@@ -165,7 +165,12 @@ impl Report {
         named.dedup();
         if !named.is_empty() {
             let named = named.join(" ");
-            let _ = writeln!(table, "at full width: motion-rtl check {named} --full");
+            let changes = self.asked.changes.to_string();
+            let lead = match changes.is_empty() {
+                true => "at full width",
+                false => "without visiting states",
+            };
+            let _ = writeln!(table, "{lead}: motion-rtl check {named} --full{changes}");
         }
         if !self.too_wide.is_empty() {
             let _ = writeln!(

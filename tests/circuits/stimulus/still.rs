@@ -25,6 +25,8 @@ pub const FAR: &[(&str, u32)] = &[
     ("unit_law.generator.next", 13),
     ("unit_law.pulses", 13),
     ("unit_law.counted", 13),
+    ("unit_law.toggles", 15),
+    ("unit_law.rest", 14),
     ("pulse_interpolator.counter.count", 10),
     ("pulse_interpolator.counter.next", 10),
     ("pulse_interpolator.x.generator.count", 9),

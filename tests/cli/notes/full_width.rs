@@ -97,6 +97,17 @@ fn by(entry: &Entry, concluded: &Concluded<Violation>) -> String {
     } else {
         ""
     };
+    let narrower = |why: &str| {
+        let widths = entry.narrower(&[], (None, &concluded.property), LIMIT);
+        let widths = widths.into_iter().flatten();
+        let widths: Vec<_> = widths
+            .map(|(key, bits)| format!("{key} = {bits} bits"))
+            .collect();
+        match widths.is_empty() {
+            true => why.to_owned(),
+            false => format!("{why}; proved at {}", widths.join(", ")),
+        }
+    };
     match &concluded.conclusion {
         // The clauses depend on the order of the search.
         Conclusion::Proof {
@@ -104,19 +115,9 @@ fn by(entry: &Entry, concluded: &Concluded<Violation>) -> String {
             ..
         } => format!("search{helper}"),
         Conclusion::Proof { by, .. } => format!("{by}{helper}"),
-        Conclusion::Open { .. } => "open".to_owned(),
         Conclusion::Assumed => "assumed".to_owned(),
-        Conclusion::TooLarge => {
-            let narrower = entry.narrower(&[], (None, &concluded.property), LIMIT);
-            let widths = narrower.into_iter().flatten();
-            let widths: Vec<_> = widths
-                .map(|(key, bits)| format!("{key} = {bits} bits"))
-                .collect();
-            match widths.is_empty() {
-                true => "too large".to_owned(),
-                false => format!("too large; proved at {}", widths.join(", ")),
-            }
-        }
+        Conclusion::Open { .. } => narrower("open"),
+        Conclusion::TooLarge => narrower("too large"),
         Conclusion::Refuted(found) => panic!("{}: {found}", entry.name),
     }
 }

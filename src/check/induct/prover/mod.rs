@@ -148,11 +148,14 @@ impl<'t, 'f> Prover<'t, 'f> {
     fn dead(&mut self) -> Result<Option<usize>, NotSliced> {
         let until = Instant::now() + self.task.limit;
         let mut held = Vec::new();
-        for tick in 0..INDUCTION {
+        if self.task.givens.is_empty() {
+            return Ok(None);
+        }
+        for tick in 0..TICKS {
             for at in each(&self.task.givens, tick..=tick) {
                 held.push(self.base.holds(at)?);
             }
-            if !held.is_empty() && self.base.clauses.solve(&held, until) == Answer::Impossible {
+            if self.base.clauses.solve(&held, until) == Answer::Impossible {
                 return Ok(Some(tick));
             }
         }

@@ -320,6 +320,18 @@ fn nothing_to_prove_and_no_input_are_errors() {
     let text = "counter: no input keeps all assumptions up to tick 1; correct the statements that \
                 `given` makes";
     assert_eq!(error.to_string(), text);
+    let late = Counter {
+        stated: |now| {
+            let one = now.i.go & now.i.by.equals(1);
+            vec![
+                Property::given("it counts", one),
+                Property::given("the count is below nine", now.q.count.below(9)),
+                Property::always("the count is not ten", &["count"], !now.q.count.equals(10)),
+            ]
+        },
+    };
+    let error = induct(&late).run().expect_err("no run goes beyond tick 8");
+    assert!(error.to_string().contains("up to tick 9"), "{error}");
 }
 
 #[test]
