@@ -101,7 +101,10 @@ fn by(entry: &Entry, concluded: &Concluded<Violation>) -> String {
         let widths = entry.narrower(&[], (None, &concluded.property), LIMIT);
         let widths = widths.into_iter().flatten();
         let widths: Vec<_> = widths
-            .map(|(key, bits)| format!("{key} = {bits} bits"))
+            .map(|(key, bits)| match bits {
+                1 => format!("{key} = 1 bit"),
+                _ => format!("{key} = {bits} bits"),
+            })
             .collect();
         match widths.is_empty() {
             true => why.to_owned(),
