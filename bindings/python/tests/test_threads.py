@@ -73,8 +73,11 @@ def test_runs_of_two_threads_do_not_mix():
     "call", [f"m.step({ENDLESS})", "m.run(watch=[], ticks=2**40)"], ids=["step", "run"]
 )
 def test_ctrl_c_ends_a_run(call):
+    # A parent in the background leaves the signal ignored.
     code = f"""
+        import signal
         import motion_rtl as mr
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         m = mr.Model("enable_counter")
         m["period"] = 1000
         print("begins", flush=True)
