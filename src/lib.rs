@@ -4,7 +4,7 @@
 //! A [circuit](hdl::Circuit) is a struct with one function, [`tick`](hdl::Circuit::tick), which
 //! computes the nets of a tick and the registers of the next. The function is elaborated to a
 //! netlist, which the [engine] runs, proves and sweeps, and which is printed as
-//! [Verilog](verilog). Every signal can be dumped.
+//! [Verilog](verilog) and [VHDL](vhdl). Every signal can be dumped.
 //!
 //! | patent | circuit | module |
 //! |---|---|---|
@@ -190,8 +190,9 @@
 //! | [`files`], [`picture`] | files replaced as a whole, drawings |
 //! | [`settings`] | settings with defaults, ranges and units, and their errors |
 //! | [`input`], [`trace`] | G-code, HPGL and position logs; waves, stimuli, timing charts |
+//! | [`printed`] | files of printed circuits, what their printers share |
 //! | [`checker`] | a design's ports compared with a running model |
-//! | [`compare`], [`plan`], [`plant`], [`verilog`] | comparison of waves, speed profiles, motors, Verilog |
+//! | [`compare`], [`plan`], [`plant`], [`verilog`], [`vhdl`] | comparison of waves, speed profiles, motors, Verilog, VHDL |
 //! | [`path`] | paths in space |
 //! | [`check`] | proofs, sweeps, random stimuli |
 //! | [`prelude`] | names for writing and testing a circuit |
@@ -222,6 +223,9 @@ pub mod input;
 pub mod trace;
 
 #[warn(missing_docs)]
+pub mod printed;
+
+#[warn(missing_docs)]
 pub mod checker;
 
 #[warn(missing_docs)]
@@ -230,6 +234,8 @@ pub mod plan;
 pub mod plant;
 #[warn(missing_docs)]
 pub mod verilog;
+#[warn(missing_docs)]
+pub mod vhdl;
 
 pub mod path;
 

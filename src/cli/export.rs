@@ -1,8 +1,11 @@
 //! A circuit's modules among those of others in one directory.
 
 use super::Failure;
+use motion_rtl::netlist::Module;
+use motion_rtl::printed::SourceFile;
 use motion_rtl::trace::Clock;
-use motion_rtl::verilog::{SourceFile, Verilog};
+use motion_rtl::verilog::Verilog;
+use motion_rtl::vhdl::Vhdl;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -12,7 +15,59 @@ const LIST: &str = ".f";
 /// Beginning of its first line; the export's name follows.
 const MADE: &str = "// Made by motion-rtl: ";
 
-/// Files of a circuit in Verilog, and the list of them.
+/// A printed circuit.
+#[derive(Debug, Clone, Copy)]
+pub enum Printed<'a> {
+    Verilog(&'a Verilog),
+    Vhdl(&'a Vhdl),
+}
+
+impl Printed<'_> {
+    /// Returns the circuit's own module.
+    pub fn top(&self) -> Option<&Module> {
+        let design = match self {
+            Printed::Verilog(verilog) => verilog.design(),
+            Printed::Vhdl(vhdl) => vhdl.design(),
+        };
+        design.modules.last()
+    }
+
+    /// Returns the extension of its files.
+    pub fn extension(&self) -> &'static str {
+        match self {
+            Printed::Verilog(_) => ".v",
+            Printed::Vhdl(_) => ".vhd",
+        }
+    }
+
+    /// Returns the beginning of the extension of its list: a directory can have both languages.
+    fn list(&self) -> &'static str {
+        match self {
+            Printed::Verilog(_) => "",
+            Printed::Vhdl(_) => "_vhdl",
+        }
+    }
+
+    fn sources(&self) -> Vec<SourceFile> {
+        match self {
+            Printed::Verilog(verilog) => verilog.sources(),
+            Printed::Vhdl(vhdl) => {
+                let mut sources = vhdl.sources();
+                sources.push(vhdl.names());
+                sources
+            }
+        }
+    }
+
+    fn testbench(&self, clock: Clock) -> Option<SourceFile> {
+        match self {
+            Printed::Verilog(verilog) => verilog.testbench(clock),
+            Printed::Vhdl(vhdl) => vhdl.testbench(clock),
+        }
+    }
+}
+
+/// Files of a printed circuit, and the list of them.
 #[derive(Debug)]
 pub struct Export {
     /// Name of the export: the command that makes it.
@@ -23,14 +78,14 @@ pub struct Export {
 
 impl Export {
     /// Creates the files of a circuit, with a testbench for waves of a clock if one is given.
-    pub fn new(verilog: &Verilog, testbench: Option<Clock>, name: String) -> Self {
-        let mut sources = verilog.sources();
-        let top = verilog.design().modules.last();
-        let top = top.map_or("", |module| module.name.as_str());
+    pub fn new(printed: Printed<'_>, testbench: Option<Clock>, name: String) -> Self {
+        let mut sources = printed.sources();
+        let top = printed.top().map_or("", |module| module.name.as_str());
         let mut list = format!("{MADE}{name}\n");
-        let bench = testbench.and_then(|clock| verilog.testbench(clock));
+        let bench = testbench.and_then(|clock| printed.testbench(clock));
         for source in sources.iter().chain(&bench) {
-            let module = source.name.ends_with(".v") && Some(source) != bench.as_ref();
+            let module = source.name.ends_with(printed.extension());
+            let module = module && Some(source) != bench.as_ref();
             list += if module { "" } else { "// " };
             list += &source.name;
             list += "\n";
@@ -40,7 +95,7 @@ impl Export {
             name,
             sources,
             list: SourceFile {
-                name: format!("{top}{LIST}"),
+                name: format!("{top}{}{LIST}", printed.list()),
                 text: list,
             },
         }

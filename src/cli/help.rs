@@ -45,6 +45,11 @@ Examples:
   motion-rtl verilog unit_law --stimulus inputs.csv --out build/own
   motion-rtl verilog unit_law --dpi --module my_channel --reset '!rst_n' --out build/dpi";
 
+pub const VHDL: &str = "\
+Examples:
+  motion-rtl vhdl unit_law --out build/unit_law
+  motion-rtl vhdl unit_law --testbench 20000 --out build/unit_law";
+
 pub const COMPARE: &str = "\
 Examples:
   motion-rtl compare golden.vcd tb.vcd

@@ -2,6 +2,7 @@
 
 mod arc;
 mod arguments;
+mod bench;
 mod check;
 mod chosen;
 mod clean;
@@ -52,6 +53,7 @@ mod traces;
 mod trajectory;
 mod verilog;
 mod version;
+mod vhdl;
 mod viewer;
 mod voice;
 mod wave_format;

@@ -43,6 +43,9 @@ enum Command {
     /// Writes a circuit as Verilog, with a testbench, its stimulus and the golden waves.
     #[command(after_help = help::VERILOG)]
     Verilog(super::verilog::Arguments),
+    /// Writes a circuit as VHDL, with a testbench, its stimulus and the golden waves.
+    #[command(after_help = help::VHDL)]
+    Vhdl(super::vhdl::Arguments),
     /// Compares a waveform, such as a simulator's, with a golden one, tick by tick.
     #[command(after_help = help::COMPARE)]
     Compare(super::compare::Arguments),
@@ -56,7 +59,7 @@ enum Command {
     #[command(after_help = help::KEYS)]
     Keys(super::keys::Arguments),
     /// Removes the files that commands have written into a directory, after naming them: waves,
-    /// pictures, counterexamples, tables, Verilog and stimuli.
+    /// pictures, counterexamples, tables, Verilog, VHDL and stimuli.
     #[command(after_help = help::CLEAN)]
     Clean(super::clean::Arguments),
     /// Prints a JSON schema of what `run --json` and `check --json` print, and of errors.
@@ -222,6 +225,7 @@ fn run(command: Option<Command>) -> Result<(), Failure> {
         Some(Command::Check(arguments)) => super::check::check(&arguments),
         Some(Command::Mutate(arguments)) => super::mutate::mutate(&arguments),
         Some(Command::Verilog(arguments)) => super::verilog::verilog(&arguments),
+        Some(Command::Vhdl(arguments)) => super::vhdl::vhdl(&arguments),
         Some(Command::Compare(arguments)) => super::compare::compare(&arguments),
         Some(Command::Plan(arguments)) => super::plan::plan(&arguments),
         Some(Command::List(arguments)) => super::list::list(&arguments),

@@ -1,7 +1,7 @@
 //! The files of a run while it goes on: waves, save file, and the circuit in Verilog with its
 //! stimulus.
 
-use super::export::Export;
+use super::export::{Export, Printed};
 use super::files::Files;
 use super::plan::{Noted, of_job};
 use super::progress::Part;
@@ -177,7 +177,11 @@ fn verilog(
 ) -> Result<(StimulusFile<AtomicFile>, OutputFile<AtomicFile>), Failure> {
     // Every circuit of the crate is printed by a test, so only a new one can fail here.
     let verilog = Verilog::new(circuit).map_err(|error| Failure::Check(error.to_string()))?;
-    files.export(Export::new(&verilog, Some(clock), format!("run {stem}")))?;
+    files.export(Export::new(
+        Printed::Verilog(&verilog),
+        Some(clock),
+        format!("run {stem}"),
+    ))?;
     let name = circuit.outlined().0;
     let stimulus = files.create_as(&format!("{name}.stimulus"))?;
     let expected = files.create_as(&format!("{name}.expected"))?;

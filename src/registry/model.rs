@@ -10,6 +10,7 @@ use crate::sim::{Elaborated, RunError};
 use crate::trace::chart::{Chart, ChartFailure};
 use crate::trace::{Clock, Layout, LayoutError};
 use crate::verilog::{Connections, Verilog};
+use crate::vhdl::Vhdl;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -78,6 +79,14 @@ impl dyn AnyModel + '_ {
     /// No netlist can be made of it.
     pub fn verilog(&self) -> Result<Verilog, EngineError> {
         Verilog::new(&self.model()?)
+    }
+
+    /// Returns the circuit as VHDL.
+    ///
+    /// # Errors
+    /// No netlist can be made of it.
+    pub fn vhdl(&self) -> Result<Vhdl, EngineError> {
+        Vhdl::new(&self.model()?)
     }
 
     /// Returns the parts of the circuit and their connections.

@@ -1,10 +1,10 @@
 //! Connections of a circuit's parts: the driver of each of their input ports.
 
-use super::design::Modules;
 use super::expression::Expressions;
-use super::names::Names;
+use super::rules::rules;
 use crate::hdl::Declarations;
 use crate::netlist::{Child, Design, Module, Role, Shape, Signal};
+use crate::printed::{Modules, Names};
 use std::collections::HashMap;
 
 /// The circuits that a circuit is made of, and what connects them.
@@ -60,7 +60,9 @@ impl Connections {
             return Connections::default();
         };
         let paths = Paths::of(declarations);
-        let names = Names::of_parts(module, &design.modules, |name| paths.shown(name));
+        let shown = |name: &str| paths.shown(name);
+        let rules = rules(module, &design.modules, &shown);
+        let names = Names::of_parts(module, &design.modules, rules);
         let expressions = Expressions::new(module, &names);
         let parts = module.instances.iter();
         let parts = parts.map(|child| part(&modules, child, &expressions, &paths));

@@ -1,6 +1,8 @@
+//! Expressions in Verilog.
+
 use super::conversion::{constant, wrap};
-use super::names::{Names, index_width};
 use crate::netlist::{Id, Kind, Module, Node, Operator, Port, Shape};
+use crate::printed::{Names, index_width};
 use std::cell::RefCell;
 use std::collections::HashMap;
 
@@ -45,13 +47,13 @@ impl Text {
 /// is a signed expression: so neither the widths nor the signs of Verilog's contexts matter.
 pub(super) struct Expressions<'m> {
     pub(super) module: &'m Module,
-    pub(super) names: &'m Names,
+    pub(super) names: &'m Names<'m>,
     /// The bits of each name that have been read.
     read: RefCell<HashMap<String, u64>>,
 }
 
 impl<'m> Expressions<'m> {
-    pub(super) fn new(module: &'m Module, names: &'m Names) -> Self {
+    pub(super) fn new(module: &'m Module, names: &'m Names<'m>) -> Self {
         Expressions {
             module,
             names,

@@ -1,26 +1,34 @@
 //! The properties of a module as assertions for formal tools.
 
-use super::design::Modules;
 use super::expression::Expressions;
-use super::fold::folded;
-use super::names::Names;
-use super::text::{ascii, range};
+use super::rules::{names, parts};
+use super::text::range;
 use crate::netlist::{Assertion, Claim, Module, Node};
+use crate::printed::{Modules, Names, ascii, folded};
 use std::fmt::Write as _;
 
 /// Low in the first tick, whose past is not known.
 const PAST_VALID: &str = "f_past_valid";
 
+/// Operators behind which a long line is broken, the weakest first.
+const OPERATORS: &[&[&str]] = &[
+    &[":"],
+    &["?"],
+    &["||"],
+    &["&&"],
+    &["&", "|", "^", "+", "-", "*", "<", ">", "=", ","],
+];
+
 impl Modules<'_> {
     /// The assertions of a module, for tools that define FORMAL.
-    pub(super) fn assertions(&self, module: &Module) -> String {
+    pub(super) fn assertions_in_verilog(&self, module: &Module) -> String {
         let printed = module.printed(self.modules);
         if printed.is_empty() {
             return String::new();
         }
         // Names of its own: what only an assertion reads is read by nothing in the circuit.
-        let mut names = Names::new(module, self.modules);
-        names.share_in_assertions(module, &printed);
+        let mut names = names(module, self.modules);
+        share(&mut names, module, &printed);
         let expressions = Expressions::new(module, &names);
         let mut text = String::from("`ifdef FORMAL\n");
         let steps = printed.iter().any(|assertion| assertion.step);
@@ -33,7 +41,7 @@ impl Modules<'_> {
         let _ = writeln!(text, "    always @(posedge clk) begin");
         for assertion in printed {
             let holds = expressions.definition(assertion.holds, 76, "                ");
-            let holds = folded(&holds, 16);
+            let holds = folded(&holds, 16, OPERATORS);
             let _ = writeln!(text, "        // {}.", sentence(assertion));
             let says = match assertion.claim {
                 Claim::Property | Claim::Helper => "assert",
@@ -65,6 +73,42 @@ fn sentence(assertion: &Assertion) -> String {
     first.into_iter().chain(letters).collect()
 }
 
+/// Names what Verilog takes no part of without a name in what assertions compute, and, where
+/// there is any, all values of before: wires cannot ask for them.
+fn share(names: &mut Names<'_>, module: &Module, printed: &[&Assertion]) {
+    names.shared.clear();
+    let mut read = vec![false; module.nodes.len()];
+    for assertion in printed {
+        read[assertion.holds] = true;
+    }
+    for id in (0..read.len()).rev() {
+        let (node, _) = module.nodes[id];
+        if read[id] && names.get(id).is_none() && !matches!(node, Node::Past(_)) {
+            for operand in node.operands() {
+                read[operand] = true;
+            }
+        }
+    }
+    let parts = parts(names, module, &read);
+    let unnamed = |id: &usize| parts[*id] && names.get(*id).is_none();
+    if !(0..parts.len()).any(|id| unnamed(&id)) {
+        return;
+    }
+    for (id, (node, _)) in module.nodes.iter().enumerate() {
+        if let Node::Past(of) = *node
+            && read[id]
+        {
+            let name = format!("past_{}", names.get(of).unwrap_or("net"));
+            let name = names.free(&name.replace('.', "_"));
+            names.insert(id, name);
+            names.shared.push(id);
+        }
+    }
+    names.share_of(module, &read, (&vec![0; read.len()], &parts), &|_| {
+        "f_value".to_owned()
+    });
+}
+
 /// Returns declarations for the shared values of a module's assertions: past values as registers,
 /// others as wires.
 fn shared(module: &Module, expressions: &Expressions<'_>) -> String {
@@ -79,7 +123,7 @@ fn shared(module: &Module, expressions: &Expressions<'_>) -> String {
             }
             _ => {
                 let definition = expressions.definition(id, 76, "        ");
-                let definition = folded(&definition, 8);
+                let definition = folded(&definition, 8, OPERATORS);
                 let _ = writeln!(wires, "    wire {}{name} = {definition};", range(shape));
             }
         }

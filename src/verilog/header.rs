@@ -1,6 +1,9 @@
-use super::design::Modules;
-use super::text::{annotated, column, comment, range};
-use crate::netlist::{Module, Role, Signal};
+//! Parameters and ports of a module in Verilog.
+
+use super::conversion::literal;
+use super::text::{MARK, column, range};
+use crate::netlist::{Module, Role, Signal, unsigned};
+use crate::printed::{Modules, Parameter, annotated, comment};
 use std::fmt::Write as _;
 
 /// Unit of time of modules, in which nothing happens: with it in all of them no simulator asks which
@@ -9,7 +12,7 @@ const TIMESCALE: &str = "`timescale 1ns / 1ps\n";
 
 impl Modules<'_> {
     /// Returns the parameters and ports.
-    pub(super) fn header(&self, module: &Module, clocked: bool) -> String {
+    pub(super) fn header_in_verilog(&self, module: &Module, clocked: bool) -> String {
         let mut text = format!("{TIMESCALE}\nmodule {} ", module.name);
         let parameters = self.parameters(module);
         match parameters.is_empty() {
@@ -20,7 +23,7 @@ impl Modules<'_> {
                     .map(|parameter| {
                         let top = self.is_top(module);
                         let value = if top { self.number(&parameter.path) } else { 0 };
-                        format!("    {}", parameter.declaration(top, value))
+                        format!("    {}", declaration(parameter, top, value))
                     })
                     .collect();
                 let _ = writeln!(text, "#(\n{}\n) (", lines.join(",\n"));
@@ -49,9 +52,30 @@ impl Modules<'_> {
                 port.push(',');
             }
         }
-        for line in annotated(&ports) {
+        for line in annotated(&ports, MARK) {
             let _ = writeln!(text, "    {line}");
         }
         text + ");\n\n"
+    }
+}
+
+fn declaration(parameter: &Parameter, top: bool, value: u64) -> String {
+    let name = parameter.name();
+    match parameter.width {
+        Some(width) => {
+            let shape = unsigned(width);
+            format!(
+                "parameter {}{name} = {}",
+                range(shape),
+                literal(value, shape)
+            )
+        }
+        None if top => {
+            // A memory deep inside has a long name, twice on the line.
+            let between = if name.len() > 40 { "\n        " } else { " " };
+            let file = parameter.path.join("_");
+            format!("parameter {name} ={between}\"{file}.hex\"")
+        }
+        None => format!("parameter {name} = \"\""),
     }
 }

@@ -1,55 +1,12 @@
-use super::conversion::literal;
-use super::design::{Modules, unsigned};
-use super::expression::Expressions;
-use super::names::Names;
-use super::text::Body;
-use crate::netlist::{Module, Node, Role, Shape};
+//! Instances of a module in Verilog.
 
-/// Connections of instances' output ports.
-pub(super) struct Outputs {
-    /// Wires to declare.
-    pub(super) wires: Vec<(Shape, String)>,
-    /// For every instance its ports out and what they drive.
-    connections: Vec<Vec<(String, String)>>,
-}
+use super::conversion::literal;
+use super::expression::Expressions;
+use crate::netlist::{Module, Role, unsigned};
+use crate::printed::{Body, Modules, Outputs};
 
 impl Modules<'_> {
-    /// The wires that the ports out of instances drive.
-    pub(super) fn outputs(&self, module: &Module, names: &Names) -> Outputs {
-        let mut outputs = Outputs {
-            wires: Vec::new(),
-            connections: Vec::new(),
-        };
-        for (index, child) in module.instances.iter().enumerate() {
-            let inside = &self.modules[child.module];
-            let mut connections = Vec::new();
-            for (inner, signal) in inside.signals.iter().enumerate() {
-                if signal.role == Role::Input || !signal.is_port() {
-                    continue;
-                }
-                let name = module.nodes.iter().enumerate().find_map(|(id, (node, _))| {
-                    let here = match *node {
-                        Node::Signal(own) => module.signals[own].owner == Some((index, inner)),
-                        Node::Port { instance, leaf } => {
-                            instance == index && inside.net(leaf) == Some(inner)
-                        }
-                        _ => false,
-                    };
-                    here.then(|| names.get(id)).flatten().map(str::to_owned)
-                });
-                let name = name.unwrap_or_else(|| format!("{}_{}", child.name, signal.name));
-                let mut ports = module.signals.iter().filter(|own| own.is_port());
-                if !ports.any(|port| port.name == name) {
-                    outputs.wires.push((signal.shape, name.clone()));
-                }
-                connections.push((signal.name.clone(), name));
-            }
-            outputs.connections.push(connections);
-        }
-        outputs
-    }
-
-    pub(super) fn instances(
+    pub(super) fn instances_in_verilog(
         &self,
         module: &Module,
         expressions: &Expressions<'_>,

@@ -1,13 +1,15 @@
+//! Memories of a module in Verilog.
+
 use super::conversion::literal;
-use super::design::unsigned;
 use super::expression::Expressions;
 use super::statements::guarded;
-use super::text::{Body, clean, range};
-use crate::netlist::{Memory, Module, Node, Port};
+use super::text::range;
+use crate::netlist::{Memory, Module, Node, Port, unsigned};
+use crate::printed::{Body, clean, own_memories};
 
 /// Declarations and contents of memories.
 pub(super) fn memories(module: &Module, body: &mut Body) {
-    for (index, memory) in own(module) {
+    for (index, memory) in own_memories(module) {
         let shape = unsigned(memory.width);
         body.comment(&clean(memory.doc));
         let last = memory.words - 1;
@@ -46,12 +48,6 @@ pub(super) fn memories(module: &Module, body: &mut Body) {
     }
 }
 
-/// The memories of a module itself, with their places among all.
-fn own(module: &Module) -> impl Iterator<Item = (usize, &Memory)> {
-    let memories = module.memories.iter().enumerate();
-    memories.filter(|(_, memory)| !memory.inner)
-}
-
 /// Declares the words as wires: vvp warns of each word of an array that it dumps.
 fn words(memory: &Memory, body: &mut Body) {
     let Memory { name, words, .. } = memory;
@@ -74,7 +70,7 @@ fn words(memory: &Memory, body: &mut Body) {
 
 /// Adds the memories' writes at the rising edge.
 pub(super) fn write_memories(module: &Module, expressions: &Expressions<'_>, body: &mut Body) {
-    for (index, memory) in own(module) {
+    for (index, memory) in own_memories(module) {
         if let Some((condition, write)) = expressions.port(index) {
             body.line("always @(posedge clk)");
             for line in guarded(condition, write, 1) {

@@ -16,16 +16,14 @@
 
 mod connections;
 mod conversion;
-mod design;
 mod dpi;
 mod expression;
-mod fold;
 mod formal;
 mod header;
 mod instances;
 mod memories;
 mod module;
-mod names;
+mod rules;
 mod statements;
 mod testbench;
 mod text;
@@ -33,10 +31,11 @@ mod unused;
 
 use crate::engine::EngineError;
 use crate::netlist::{Design, Module, Value};
+use crate::printed::Modules;
+pub use crate::printed::SourceFile;
 use crate::sim::Described;
 use crate::trace::Clock;
 pub use connections::{Connection, Connections, Part};
-use design::Modules;
 pub use dpi::{Binding, DpiChecker};
 use std::fmt::Write as _;
 
@@ -46,20 +45,11 @@ pub struct Verilog {
     design: Design,
 }
 
-/// A file of a design.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct SourceFile {
-    /// Its name.
-    pub name: String,
-    /// Its text.
-    pub text: String,
-}
-
 /// Returns the file of a module.
 fn source(modules: &Modules<'_>, module: &Module) -> SourceFile {
     SourceFile {
         name: format!("{}.v", module.name),
-        text: modules.print(module),
+        text: modules.print_in_verilog(module),
     }
 }
 

@@ -1,46 +1,43 @@
+//! Statements at a rising edge in Verilog.
+
 use super::conversion::literal;
 use super::expression::Expressions;
-use super::module::{is_own_register, stored};
-use crate::netlist::{Id, Module, Node};
+use crate::netlist::{Id, Module, Signal};
+use crate::printed::{Names, Statement, Values, edge, stored};
 
-/// A statement at a rising edge.
-#[derive(Debug, PartialEq)]
-enum Statement {
-    /// A register takes a value.
-    Assign(String),
-    /// Condition, statements if it holds, and statements otherwise.
-    If(String, Vec<Statement>, Vec<Statement>),
+impl Values for Expressions<'_> {
+    fn of(&self) -> (&Module, &Names<'_>) {
+        (self.module, self.names)
+    }
+
+    fn same_bits(&self, id: Id) -> Id {
+        self.same_bits(id)
+    }
+
+    fn condition(&self, id: Id) -> String {
+        self.value(id)
+    }
+
+    fn negated(&self, id: Id) -> String {
+        self.negated(id)
+    }
+
+    fn reset(&self, register: &Signal) -> String {
+        let power_on = literal(register.power_on, register.shape);
+        format!("{} <= {power_on};", stored(register))
+    }
+
+    fn assign(&self, register: &Signal, value: Id) -> String {
+        format!("{} <= {};", stored(register), self.value(value))
+    }
 }
 
-/// The edge of a module's own registers. A register that holds its value where a condition is low
-/// stands in an `if`; those with one condition stand together.
-pub(super) fn edge(module: &Module, expressions: &Expressions<'_>, indent: usize) -> Vec<String> {
-    let mut reset = Vec::new();
-    let mut statements = Vec::new();
-    for (register, signal) in module.signals.iter().enumerate() {
-        if !is_own_register(signal) {
-            continue;
-        }
-        let power_on = literal(signal.power_on, signal.shape);
-        reset.push(Statement::Assign(format!(
-            "{} <= {power_on};",
-            stored(signal)
-        )));
-        let next = signal.driver;
-        let next = next.and_then(|next| statement(module, expressions, register, next));
-        if let Some(statement) = next {
-            merge(&mut statements, statement);
-        }
-    }
-    if reset.is_empty() {
-        return Vec::new();
-    }
+/// Returns the lines of the edge of a module's own registers.
+pub(super) fn edge_lines(expressions: &Expressions<'_>, indent: usize) -> Vec<String> {
     let mut lines = Vec::new();
-    print(
-        &[Statement::If("rst".into(), reset, statements)],
-        indent,
-        &mut lines,
-    );
+    if let Some(statement) = edge(expressions, "rst") {
+        print(&[statement], indent, &mut lines);
+    }
     lines
 }
 
@@ -53,57 +50,6 @@ pub(super) fn guarded(condition: Option<String>, statement: String, indent: usiz
             format!("{pad}    {statement}"),
         ],
         None => vec![format!("{pad}{statement}")],
-    }
-}
-
-fn statement(
-    module: &Module,
-    expressions: &Expressions<'_>,
-    register: usize,
-    next: Id,
-) -> Option<Statement> {
-    let next = expressions.same_bits(next);
-    let node = module.nodes[next].0;
-    if node == Node::Signal(register) {
-        return None;
-    }
-    if let (Node::Mux(choose, then, other), None) = (node, expressions.names.get(next)) {
-        let branch = |id| statement(module, expressions, register, id);
-        let (then, other) = (branch(then), branch(other));
-        return Some(match then {
-            Some(then) => Statement::If(
-                expressions.value(choose),
-                vec![then],
-                other.into_iter().collect(),
-            ),
-            None => Statement::If(
-                expressions.negated(choose),
-                other.into_iter().collect(),
-                Vec::new(),
-            ),
-        });
-    }
-    let name = stored(&module.signals[register]);
-    Some(Statement::Assign(format!(
-        "{name} <= {};",
-        expressions.value(next)
-    )))
-}
-
-/// Adds a statement; one with the condition of the last goes into it.
-fn merge(statements: &mut Vec<Statement>, statement: Statement) {
-    match (statements.last_mut(), statement) {
-        (Some(Statement::If(last, then, other)), Statement::If(condition, more, others))
-            if *last == condition =>
-        {
-            for statement in more {
-                merge(then, statement);
-            }
-            for statement in others {
-                merge(other, statement);
-            }
-        }
-        (_, statement) => statements.push(statement),
     }
 }
 

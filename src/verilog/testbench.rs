@@ -1,6 +1,7 @@
-use super::SourceFile;
-use super::design::Modules;
+//! Testbenches in Verilog.
+
 use crate::netlist::{Module, Signal};
+use crate::printed::{Modules, SourceFile};
 use crate::trace::Clock;
 use std::fmt::Write as _;
 

@@ -1,8 +1,8 @@
+//! Bits that nothing reads.
+
 use super::expression::Expressions;
-use super::instances::Outputs;
-use super::module::is_own_register;
-use super::text::{Body, LINE};
 use crate::netlist::{Module, Role};
+use crate::printed::{Body, LINE, Outputs, is_own_register};
 
 /// Name of the wire that reads otherwise unused bits.
 pub(super) const UNUSED: &str = "_unused";

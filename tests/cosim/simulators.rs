@@ -22,8 +22,14 @@ const SEED: u64 = 3;
 /// Drives a circuit and writes its Verilog beside what comes of that; returns the files of its
 /// modules, and how many ticks had a reset.
 pub fn export(circuit: &dyn AnyModel, path: &Path, seed: u64, ticks: u64) -> (Vec<String>, u64) {
-    let name = circuit.name();
     let modules = write(path, &circuit.verilog().unwrap());
+    (modules, drive(circuit, path, seed, ticks))
+}
+
+/// Drives a circuit and writes its waves, its stimulus and its outputs; returns how many ticks had a
+/// reset.
+pub fn drive(circuit: &dyn AnyModel, path: &Path, seed: u64, ticks: u64) -> u64 {
+    let name = circuit.name();
     let drive = Drive {
         seed,
         ticks,
@@ -37,7 +43,7 @@ pub fn export(circuit: &dyn AnyModel, path: &Path, seed: u64, ticks: u64) -> (Ve
         &mut create("stimulus"),
         &mut create("expected"),
     );
-    (modules, driven.unwrap().resets)
+    driven.unwrap().resets
 }
 
 /// Holds a circuit and its Verilog against each other; returns how many ticks had a reset.
@@ -53,12 +59,12 @@ pub fn hold(circuit: &dyn AnyModel, simulator: Simulator, seed: u64, ticks: u64)
 
 /// The circuit of an entry at several widths, with the ticks it is held for: an odd one where it can
 /// be made so, a middle one, its own.
-fn widths(entry: &Entry) -> Vec<(Box<dyn AnyModel>, u64)> {
+pub fn widths(entry: &Entry) -> Vec<(Box<dyn AnyModel>, u64)> {
     let made = |width| entry.scaled(width);
     let least = made(3).or_else(|| made(4)).map(|made| (made, FEWER_TICKS));
     let middle = made(8).map(|made| (made, TICKS));
     let own = entry.full();
-    let ticks = match own.outline().leaves.len() > MANY_WORDS {
+    let ticks = match has_many_words(&*own) {
         true => LEAST_TICKS,
         false => FEWER_TICKS,
     };
@@ -68,8 +74,13 @@ fn widths(entry: &Entry) -> Vec<(Box<dyn AnyModel>, u64)> {
         .collect()
 }
 
+/// True for a circuit with more than [`MANY_WORDS`] signals and words of memories.
+pub fn has_many_words(circuit: &dyn AnyModel) -> bool {
+    circuit.outline().leaves.len() > MANY_WORDS
+}
+
 /// Every circuit of the catalogue at every width, on all cores.
-fn all(work: impl Fn(&dyn AnyModel, u64) + Sync) {
+pub fn all(work: impl Fn(&dyn AnyModel, u64) + Sync) {
     let entries = CATALOGUE.par_iter().with_max_len(1);
     entries.for_each(|entry| {
         for (circuit, ticks) in widths(entry) {
@@ -112,7 +123,7 @@ const VARIANTS: [(&str, &[&str]); 8] = [
     ("integrator", &["position=8", "rule=centred"]),
 ];
 
-fn variants() -> impl Iterator<Item = Box<dyn AnyModel>> {
+pub fn variants() -> impl Iterator<Item = Box<dyn AnyModel>> {
     VARIANTS.into_iter().map(|(name, given)| {
         let entry = motion_rtl::registry::find(name).unwrap();
         let pairs: Vec<_> = given.iter().map(|pair| pair.parse().unwrap()).collect();

@@ -2,9 +2,9 @@
 
 mod package;
 
-use super::SourceFile;
-use super::text::{annotated, ascii, column, range};
+use super::text::{MARK, column, range};
 use crate::checker::{DPI_VERSION, Place, Port, PortList, PortWords, VERSION};
+use crate::printed::{SourceFile, annotated, ascii};
 use crate::sim::{Model, ModelError, PortDirection};
 use std::fmt::Write as _;
 
@@ -175,7 +175,7 @@ bind {module} {circuit}_checker #(
         if let Some((last, _)) = lines.last_mut() {
             last.pop();
         }
-        annotated(&lines).join("\n")
+        annotated(&lines, MARK).join("\n")
     }
 
     /// Returns the expressions of the words.

@@ -1,23 +1,42 @@
-use crate::netlist::{Assertion, Id, Kind, Module, Node, Operator, Port, Role};
+//! Names of a module's nodes.
+
+use crate::netlist::{Id, Kind, Module, Node, Operator, Role, Signal};
 use std::collections::{HashMap, HashSet};
 
 /// Names longer than this say less than a number.
 const LONGEST: usize = 28;
 
+/// Function that returns the nodes that a language does not take without a name. Gets how often
+/// each node is used by nodes, signals, memories and instances that are in use themselves.
+pub(crate) type Needs = fn(&Names<'_>, &Module, &[usize]) -> Vec<bool>;
+
+/// Rules of a language for names.
+pub(crate) struct Rules<'r> {
+    /// Formats the name of a signal.
+    pub(crate) shown: &'r dyn Fn(&str) -> String,
+    /// Names that no subexpression may have.
+    pub(crate) taken: HashSet<String>,
+    /// Names of nodes that get a certain name unless a signal shows them.
+    pub(crate) given: HashMap<Id, String>,
+    /// Finds the nodes that need a name.
+    pub(crate) needs: Needs,
+    /// Returns the beginning of a name for a node of which no short name says what it is.
+    pub(crate) fallback: &'r dyn Fn(Id) -> String,
+}
+
 /// Names of a module's nodes in its text.
-pub(super) struct Names {
+pub(crate) struct Names<'r> {
     /// The names of nodes: signals, ports of instances, nets, shared subexpressions.
     of: HashMap<Id, String>,
     /// The nodes that are called after no signal, in their order.
-    pub(super) shared: Vec<Id>,
-    /// The names that are in use in the module.
-    taken: HashSet<String>,
+    pub(crate) shared: Vec<Id>,
+    rules: Rules<'r>,
 }
 
-impl Names {
+impl<'r> Names<'r> {
     /// Names the nodes of `module`; `modules` are those that it may contain.
-    pub(super) fn new(module: &Module, modules: &[Module]) -> Self {
-        let mut names = Names::of_signals(module, modules, str::to_owned);
+    pub(crate) fn new(module: &Module, modules: &[Module], rules: Rules<'r>) -> Self {
+        let mut names = Names::of_signals(module, modules, rules);
         for signal in &module.signals {
             let Some(driver) = signal.driver.filter(|_| signal.role == Role::Net) else {
                 continue;
@@ -36,10 +55,11 @@ impl Names {
                     .signals
                     .iter()
                     .filter(|signal| signal.owner.is_none());
-                own.any(|signal| signal.name == *name)
+                own.any(|signal| names.shown(&signal.name) == *name)
             });
             if own && !renamed {
-                names.of.insert(driver, signal.name.clone());
+                let name = names.shown(&signal.name);
+                names.of.insert(driver, name);
             }
         }
         names.share(module);
@@ -47,20 +67,16 @@ impl Names {
     }
 
     /// Returns names for a text that shows `module` beside the modules inside it: an instance's
-    /// output keeps its name there. `shown` formats a name.
-    pub(super) fn of_parts(
-        module: &Module,
-        modules: &[Module],
-        shown: impl Fn(&str) -> String,
-    ) -> Self {
-        let mut names = Names::of_signals(module, modules, &shown);
+    /// output keeps its name there.
+    pub(crate) fn of_parts(module: &Module, modules: &[Module], rules: Rules<'r>) -> Self {
+        let mut names = Names::of_signals(module, modules, rules);
         for signal in &module.signals {
             let computed = |id: &Id| !matches!(module.nodes[*id].0, Node::Constant(_));
             if let Some(driver) = signal.driver.filter(computed)
                 && signal.role == Role::Net
             {
-                let name = names.of.entry(driver);
-                name.or_insert_with(|| shown(&signal.name));
+                let shown = names.shown(&signal.name);
+                names.of.entry(driver).or_insert(shown);
             }
         }
         names.share(module);
@@ -68,11 +84,11 @@ impl Names {
     }
 
     /// Only ports in, registers and ports of instances have names.
-    fn of_signals(module: &Module, modules: &[Module], shown: impl Fn(&str) -> String) -> Self {
+    fn of_signals(module: &Module, modules: &[Module], rules: Rules<'r>) -> Self {
         let mut names = Names {
             of: HashMap::new(),
             shared: Vec::new(),
-            taken: reserved(module, modules).collect(),
+            rules,
         };
         for (id, (node, _)) in module.nodes.iter().enumerate() {
             let name = match *node {
@@ -81,99 +97,58 @@ impl Names {
                 _ => None,
             };
             if let Some(name) = name {
-                names.of.insert(id, shown(&name));
+                let name = names.shown(&name);
+                names.of.insert(id, name);
             }
         }
         names
     }
 
+    /// Returns the name of a signal in the text.
+    pub(crate) fn shown(&self, name: &str) -> String {
+        (self.rules.shown)(name)
+    }
+
+    /// True if the expressions of the module read a node by the name of this net.
+    pub(crate) fn is_net(&self, id: Id, net: &Signal) -> bool {
+        self.get(id) == Some(&*self.shown(&net.name))
+    }
+
     /// The name of a node, if it has one.
-    pub(super) fn get(&self, id: Id) -> Option<&str> {
+    pub(crate) fn get(&self, id: Id) -> Option<&str> {
         self.of.get(&id).map(String::as_str)
     }
 
-    /// Names what is used more than once, and what Verilog takes no part of without a name.
+    /// Names what is used more than once, and what the language does not take without a name.
     fn share(&mut self, module: &Module) {
         let live = module.live();
-        let (mut uses, mut parts) = self.uses(module, &live);
+        let mut uses = self.uses(module, &live);
         for root in module.roots() {
             uses[root] += 1;
         }
-        for memory in &module.memories {
-            if let Port::Ram { address, .. } = memory.port {
-                parts[address] |= !self.is_index(module, address);
-            }
-        }
-        self.share_of(module, &live, (&uses, &parts), "net");
+        let needed = (self.rules.needs)(self, module, &uses);
+        let fallback = self.rules.fallback;
+        self.share_of(module, &live, (&uses, &needed), fallback);
     }
 
-    /// Names what Verilog takes no part of without a name in what assertions compute, and, where
-    /// there is any, all values of before: wires cannot ask for them.
-    pub(super) fn share_in_assertions(&mut self, module: &Module, printed: &[&Assertion]) {
-        self.shared.clear();
-        let mut read = vec![false; module.nodes.len()];
-        for assertion in printed {
-            read[assertion.holds] = true;
-        }
-        for id in (0..read.len()).rev() {
-            let (node, _) = module.nodes[id];
-            if read[id] && !self.of.contains_key(&id) && !matches!(node, Node::Past(_)) {
-                for operand in node.operands() {
-                    read[operand] = true;
-                }
-            }
-        }
-        let (_, parts) = self.uses(module, &read);
-        let unnamed = |id: &usize| parts[*id] && !self.of.contains_key(id);
-        if !(0..parts.len()).any(|id| unnamed(&id)) {
-            return;
-        }
-        for (id, (node, _)) in module.nodes.iter().enumerate() {
-            if let Node::Past(of) = *node
-                && read[id]
-            {
-                let name = format!("past_{}", self.get(of).unwrap_or("net"));
-                let name = self.free(&name.replace('.', "_"));
-                self.of.insert(id, name);
-                self.shared.push(id);
-            }
-        }
-        self.share_of(module, &read, (&vec![0; read.len()], &parts), "f_value");
-    }
-
-    /// Returns how often the nodes that are read use each node, and whether they take parts of it.
-    fn uses(&self, module: &Module, read: &[bool]) -> (Vec<usize>, Vec<bool>) {
+    /// Returns how often the nodes that are read use each node.
+    fn uses(&self, module: &Module, read: &[bool]) -> Vec<usize> {
         let mut uses = vec![0_usize; module.nodes.len()];
-        let mut parts = vec![false; module.nodes.len()];
-        for (id, (node, shape)) in module.nodes.iter().enumerate() {
-            if !read[id] {
-                continue;
-            }
-            for operand in node.operands() {
+        for (id, (node, _)) in module.nodes.iter().enumerate() {
+            for operand in node.operands().filter(|_| read[id]) {
                 uses[operand] += 1;
             }
-            match *node {
-                Node::Slice(of, low) => parts[of] |= !(low == 0 && self.narrows(module, of)),
-                Node::Extend(of) => parts[of] |= shape.kind == Kind::Signed,
-                Node::Read(memory, address) => {
-                    let fits =
-                        index_width(module.memories[memory].words) == module.nodes[address].1.width;
-                    parts[address] |= !fits && !self.narrows(module, address);
-                    parts[address] |= !self.is_index(module, address);
-                }
-                _ => {}
-            }
         }
-        (uses, parts)
+        uses
     }
 
-    /// Names, of what is read, what is used more than once, and that of which parts are taken.
-    fn share_of(
+    /// Names, of what is read, what is used more than once, and what is needed.
+    pub(crate) fn share_of(
         &mut self,
         module: &Module,
         read: &[bool],
-        (uses, parts): (&[usize], &[bool]),
-        fallback: &str,
+        (uses, needed): (&[usize], &[bool]),
+        fallback: &dyn Fn(Id) -> String,
     ) {
         for id in 0..module.nodes.len() {
             let (node, _) = module.nodes[id];
@@ -181,41 +156,18 @@ impl Names {
             if !read[id] || self.of.contains_key(&id) || constant {
                 continue;
             }
-            if parts[id] || uses[id] > 1 && !self.is_plain(module, id) {
-                let name = self.describe(module, id);
-                let name = self.free(&name.unwrap_or_else(|| fallback.to_owned()));
+            if needed[id] || uses[id] > 1 && !self.is_plain(module, id) {
+                let name = match self.rules.given.get(&id) {
+                    Some(name) => name.clone(),
+                    None => {
+                        let name = self.describe(module, id);
+                        let name = name.unwrap_or_else(|| fallback(id));
+                        self.free(&name)
+                    }
+                };
                 self.of.insert(id, name);
                 self.shared.push(id);
             }
-        }
-    }
-
-    /// Returns true if the low bits of a node can be written without a name for the whole.
-    pub(super) fn narrows(&self, module: &Module, id: Id) -> bool {
-        if self.of.contains_key(&id) {
-            return true;
-        }
-        match module.nodes[id].0 {
-            Node::Constant(_) => true,
-            Node::Binary(Operator::Equal | Operator::Below, ..) => false,
-            Node::Binary(_, a, b) | Node::Mux(_, a, b) => {
-                self.narrows(module, a) && self.narrows(module, b)
-            }
-            Node::Not(a) | Node::Negate(a) | Node::Cast(a) => self.narrows(module, a),
-            _ => false,
-        }
-    }
-
-    /// Returns true if a node can be written as an index. Icarus computes an index in more bits
-    /// than its operands have, so an expression that may wrap needs a name.
-    fn is_index(&self, module: &Module, id: Id) -> bool {
-        let named = |id: Id| self.of.contains_key(&id);
-        match module.nodes[id].0 {
-            _ if named(id) => true,
-            Node::Constant(_) | Node::Parameter(_) | Node::Read(..) | Node::Join(..) => true,
-            Node::Cast(a) | Node::Extend(a) => self.is_index(module, a),
-            Node::Slice(a, _) => named(a),
-            _ => false,
         }
     }
 
@@ -278,12 +230,18 @@ impl Names {
             .then_some(name)
     }
 
-    /// This name, or one with a number.
-    fn free(&mut self, name: &str) -> String {
+    /// Gives a node a name.
+    pub(crate) fn insert(&mut self, id: Id, name: String) {
+        self.of.insert(id, name);
+    }
+
+    /// Returns this name, or one with a number, and keeps it from others. A name that differs in
+    /// the case of letters only is taken too.
+    pub(crate) fn free(&mut self, name: &str) -> String {
         let name = if name.is_empty() { "net" } else { name };
         let mut free = name.to_owned();
         let mut number = 1;
-        while !self.taken.insert(free.clone()) {
+        while !self.rules.taken.insert(free.to_ascii_lowercase()) {
             number += 1;
             free = format!("{name}_{number}");
         }
@@ -292,12 +250,12 @@ impl Names {
 }
 
 /// Returns the bits of an index into `words` words.
-pub(super) fn index_width(words: usize) -> usize {
+pub(crate) fn index_width(words: usize) -> usize {
     words.next_power_of_two().trailing_zeros() as usize
 }
 
 /// The name by which a module reads one of its signals.
-pub(super) fn signal_name(module: &Module, modules: &[Module], signal: usize) -> Option<String> {
+fn signal_name(module: &Module, modules: &[Module], signal: usize) -> Option<String> {
     let signal = &module.signals[signal];
     match signal.owner {
         None => Some(signal.name.clone()),
@@ -320,13 +278,9 @@ fn port_name(module: &Module, modules: &[Module], instance: usize, leaf: usize) 
         .then(|| format!("{}_{}", child.name, inner.name))
 }
 
-/// The names that a module has for other reasons.
-fn reserved(module: &Module, modules: &[Module]) -> impl Iterator<Item = String> {
-    let mut names = vec![
-        "clk".to_owned(),
-        "rst".to_owned(),
-        super::unused::UNUSED.to_owned(),
-    ];
+/// Returns the names that a module has for other reasons.
+pub(crate) fn reserved(module: &Module, modules: &[Module]) -> Vec<String> {
+    let mut names = vec!["clk".to_owned(), "rst".to_owned()];
     for signal in module
         .signals
         .iter()
@@ -349,5 +303,5 @@ fn reserved(module: &Module, modules: &[Module]) -> impl Iterator<Item = String>
             names.push(format!("{}_{}", child.name, signal.name));
         }
     }
-    names.into_iter()
+    names
 }

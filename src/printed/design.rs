@@ -1,57 +1,30 @@
-use super::conversion::literal;
-use super::text::range;
-use crate::netlist::{Kind, Memory, Module, Port, Role, Setting, Shape, Value};
+//! Modules of a design, and their parameters.
+
+use crate::netlist::{Memory, Module, Port, Role, Setting, Signal, Value};
 
 /// The modules of a design, the circuit itself last, and what they are set to.
-pub(super) struct Modules<'d> {
-    pub(super) modules: &'d [Module],
-    pub(super) settings: &'d [Setting],
+pub(crate) struct Modules<'d> {
+    pub(crate) modules: &'d [Module],
+    pub(crate) settings: &'d [Setting],
 }
 
-/// A parameter of a module in Verilog.
-pub(super) struct Parameter {
+/// A parameter of a printed module.
+pub(crate) struct Parameter {
     /// The instances around it, and its name.
-    pub(super) path: Vec<String>,
+    pub(crate) path: Vec<String>,
     /// The width of a number; none for the file that a memory is filled from.
-    pub(super) width: Option<usize>,
+    pub(crate) width: Option<usize>,
 }
 
 impl Parameter {
-    pub(super) fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         self.path.join("_").to_uppercase()
-    }
-
-    pub(super) fn declaration(&self, top: bool, value: u64) -> String {
-        let name = self.name();
-        match self.width {
-            Some(width) => {
-                let shape = unsigned(width);
-                format!(
-                    "parameter {}{name} = {}",
-                    range(shape),
-                    literal(value, shape)
-                )
-            }
-            None if top => {
-                // A memory deep inside has a long name, twice on the line.
-                let between = if name.len() > 40 { "\n        " } else { " " };
-                format!("parameter {name} ={between}\"{}.hex\"", self.path.join("_"))
-            }
-            None => format!("parameter {name} = \"\""),
-        }
-    }
-}
-
-pub(super) fn unsigned(width: usize) -> Shape {
-    Shape {
-        kind: Kind::Unsigned,
-        width,
     }
 }
 
 impl Modules<'_> {
     /// Returns true if anything in a module is clocked.
-    pub(super) fn clocked(&self, module: &Module) -> bool {
+    pub(crate) fn clocked(&self, module: &Module) -> bool {
         module
             .signals
             .iter()
@@ -68,7 +41,7 @@ impl Modules<'_> {
 
     /// The parameters of a module: its own, and what it passes on to those inside it. The
     /// circuit itself passes numbers on as such.
-    pub(super) fn parameters(&self, module: &Module) -> Vec<Parameter> {
+    pub(crate) fn parameters(&self, module: &Module) -> Vec<Parameter> {
         let numbers = module.parameters.iter().map(|parameter| Parameter {
             path: vec![parameter.name.to_owned()],
             width: Some(parameter.width),
@@ -94,19 +67,42 @@ impl Modules<'_> {
         parameters
     }
 
+    /// Returns the parameters of a module that are numbers.
+    pub(crate) fn numbers(&self, module: &Module) -> Vec<Parameter> {
+        let mut parameters = self.parameters(module);
+        parameters.retain(|parameter| parameter.width.is_some());
+        parameters
+    }
+
     /// Returns true for the module of the circuit itself.
-    pub(super) fn is_top(&self, module: &Module) -> bool {
+    pub(crate) fn is_top(&self, module: &Module) -> bool {
         self.modules
             .last()
             .is_some_and(|last| std::ptr::eq(last, module))
     }
 
     /// The number that a parameter of the circuit itself, or of one inside it, is set to.
-    pub(super) fn number(&self, path: &[String]) -> u64 {
+    pub(crate) fn number(&self, path: &[String]) -> u64 {
         let setting = self.settings.iter().find(|setting| setting.path == path);
         match setting.map(|setting| &setting.value) {
             Some(Value::Number(number)) => *number,
             _ => 0,
         }
     }
+}
+
+/// True for a register of the module itself.
+pub(crate) fn is_own_register(signal: &Signal) -> bool {
+    signal.role == Role::Register && signal.owner.is_none()
+}
+
+/// Returns the name of a register: that of its port is a wire.
+pub(crate) fn stored(signal: &Signal) -> String {
+    signal.behind().unwrap_or_else(|| signal.name.clone())
+}
+
+/// Returns the memories of a module itself, with their places among all.
+pub(crate) fn own_memories(module: &Module) -> impl Iterator<Item = (usize, &Memory)> {
+    let memories = module.memories.iter().enumerate();
+    memories.filter(|(_, memory)| !memory.inner)
 }

@@ -7,25 +7,25 @@ const SHORTEST: usize = 40;
 
 /// Breaks the lines of an expression that are too long, behind operators that are in as few brackets
 /// as possible. Lines after the first are indented by `indent`, and by one more for each bracket
-/// that a break is in.
-pub(super) fn folded(expression: &str, indent: usize) -> String {
+/// that a break is in. `operators` are those of the language, the weakest first.
+pub(crate) fn folded(expression: &str, indent: usize, operators: &[&[&str]]) -> String {
     let mut lines = Vec::new();
     for line in expression.lines() {
         let text = line.trim_start();
         let start = indent.max(line.len() - text.len());
-        fold(text, start, &mut lines);
+        fold(text, start, operators, &mut lines);
     }
     lines.join("\n").trim_start().to_owned()
 }
 
-fn fold(mut text: &str, start: usize, lines: &mut Vec<String>) {
+fn fold(mut text: &str, start: usize, operators: &[&[&str]], lines: &mut Vec<String>) {
     let mut depth = 0;
     loop {
         let indent = start + depth;
         let room = LINE.saturating_sub(indent).max(SHORTEST);
         let end = match text.len() <= room {
             true => None,
-            false => last_break(text, depth, room),
+            false => last_break(text, (depth, room), operators),
         };
         let Some((end, inside)) = end else {
             lines.push(format!("{:indent$}{text}", ""));
@@ -39,7 +39,11 @@ fn fold(mut text: &str, start: usize, lines: &mut Vec<String>) {
 
 /// Returns the best space to break a text at that begins in `depth` brackets, and the brackets that
 /// it is in.
-fn last_break(text: &str, mut depth: usize, room: usize) -> Option<(usize, usize)> {
+fn last_break(
+    text: &str,
+    (mut depth, room): (usize, usize),
+    operators: &[&[&str]],
+) -> Option<(usize, usize)> {
     let mut best = None;
     for (at, letter) in text.bytes().enumerate() {
         match letter {
@@ -51,7 +55,7 @@ fn last_break(text: &str, mut depth: usize, room: usize) -> Option<(usize, usize
             break;
         }
         if letter == b' '
-            && let Some(rank) = rank(&text[..at])
+            && let Some(rank) = operators.iter().position(|same| ends(&text[..at], same))
             && best.is_none_or(|(_, least)| (depth, rank) <= least)
         {
             best = Some((at, (depth, rank)));
@@ -60,28 +64,21 @@ fn last_break(text: &str, mut depth: usize, room: usize) -> Option<(usize, usize
     best.map(|(at, (depth, _))| (at, depth))
 }
 
-/// Returns the rank of the operator at the end of a text: the weakest first. `None` if there is no
-/// operator.
-fn rank(text: &str) -> Option<usize> {
-    let ranks: [&[&str]; 5] = [
-        &[":"],
-        &["?"],
-        &["||"],
-        &["&&"],
-        &["&", "|", "^", "+", "-", "*", "<", ">", "=", ","],
-    ];
-    let ends = |operators: &&[&str]| operators.iter().any(|operator| text.ends_with(operator));
-    ranks.iter().position(ends)
+/// True if a text ends with one of these operators.
+fn ends(text: &str, operators: &[&str]) -> bool {
+    operators.iter().any(|operator| text.ends_with(operator))
 }
 
 #[cfg(test)]
 mod tests {
     use super::folded;
 
+    const OPERATORS: &[&[&str]] = &[&[":"], &["?"], &["||"], &["&&"], &["=="]];
+
     #[test]
     fn short_lines_stay() {
         let text = "a && b &&\n    (c ||\n     d)";
-        assert_eq!(folded(text, 4), text);
+        assert_eq!(folded(text, 4, OPERATORS), text);
     }
 
     #[test]
@@ -94,6 +91,6 @@ mod tests {
             format!("         {long} && {long} &&"),
             "         c) || d == 4'd1".to_owned(),
         ];
-        assert_eq!(folded(&text, 8), lines.join("\n"));
+        assert_eq!(folded(&text, 8, OPERATORS), lines.join("\n"));
     }
 }
