@@ -238,7 +238,7 @@ fn states(module: &Module, expressions: &Expressions<'_>, body: &mut Body) {
 /// Adds registers, wires of instances, nets and shared subexpressions.
 fn signals(module: &Module, expressions: &Expressions<'_>, outputs: &Outputs, body: &mut Body) {
     let scope = expressions.scope;
-    let signal = |name: &str, shape: Shape| format!("signal {name} : {}", subtype(shape));
+    let signal = |name: &str, shape: Shape| format!("{STEP}signal {name} : {}", subtype(shape));
     let mut lines = Vec::new();
     for register in module.signals.iter().filter(|own| is_own_register(own)) {
         let name = scope.own(&stored(register));
@@ -275,7 +275,7 @@ fn signals(module: &Module, expressions: &Expressions<'_>, outputs: &Outputs, bo
 
 fn add(lines: &mut Vec<(String, String)>, body: &mut Body) {
     for line in annotated(&std::mem::take(lines), MARK) {
-        body.line(&line);
+        body.raw(&line);
     }
     body.space();
 }

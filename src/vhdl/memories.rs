@@ -5,7 +5,7 @@ use super::expression::Expressions;
 use super::statements::guarded;
 use super::text::{STEP, subtype};
 use super::units::Unit;
-use crate::netlist::{Memory, Node, Port, unsigned};
+use crate::netlist::{Id, Memory, Node, Port, unsigned};
 use crate::printed::{Body, LINE, clean, own_memories};
 
 /// Adds types and declarations of memories, with their contents.
@@ -19,8 +19,10 @@ pub(super) fn memories(unit: &Unit, expressions: &Expressions<'_>, body: &mut Bo
         body.comment(&clean(memory.doc));
         let contents = unit.contents.iter().find(|(own, _)| *own == index);
         let contents = contents.map_or(&[][..], |(_, words)| words);
+        let never = |enable: Id| expressions.module.nodes[enable].0 == Node::Constant(0);
         let kind = match memory.port {
             Port::Rom => "constant",
+            Port::Ram { enable, .. } | Port::Shift { enable, .. } if never(enable) => "constant",
             Port::Ram { .. } | Port::Shift { .. } => "signal",
         };
         let begin = format!("{kind} {name} : {words} :=");
@@ -92,8 +94,8 @@ pub(super) fn writes(expressions: &Expressions<'_>, body: &mut Body) {
 fn shift(
     expressions: &Expressions<'_>,
     memory: &Memory,
-    enable: usize,
-    data: usize,
+    enable: Id,
+    data: Id,
 ) -> Option<Vec<String>> {
     let condition = match expressions.module.nodes[enable].0 {
         Node::Constant(0) => return None,

@@ -15,6 +15,7 @@
 //! ```
 
 mod constant;
+mod conversion;
 mod entity;
 mod expression;
 mod map;

@@ -1,6 +1,6 @@
 //! Names that VHDL needs.
 
-use super::expression::{bits_of, is_indexed};
+use super::conversion::{bits_of, is_indexed};
 use super::scope::Scope;
 use crate::netlist::{BIT, Id, Kind, Module, Node, Shape};
 use crate::printed::{Names, is_own_register};

@@ -1,14 +1,17 @@
 //! Circuits of no use that have what no circuit of the catalogue has.
 
 mod memories;
+mod names;
 mod signed;
 mod structure;
 mod unsigned;
 
+use super::ghdl;
 use super::simulators::{hold, lint};
 use super::tools::Simulator;
 use memories::Memories;
 use motion_rtl::registry::AnyModel;
+use names::Outer;
 use signed::SignedWords;
 use structure::{Free, Tree};
 use unsigned::UnsignedWords;
@@ -77,4 +80,30 @@ fn wide_words_in_verilator() {
     let (n, k, p) = (33, 31, 64);
     hold(&SignedWords { n, k, p }, Simulator::Verilator, 3, TICKS);
     hold(&UnsignedWords { n, k, p }, Simulator::Verilator, 3, TICKS);
+}
+
+/// One tick of GHDL for so many of Icarus.
+const SLOWER: u64 = 10;
+
+#[test]
+#[ignore = "needs GHDL"]
+fn words_in_vhdl() {
+    for (n, k, p) in WIDTHS {
+        ghdl::hold(&SignedWords { n, k, p }, n as u64, TICKS / SLOWER);
+        ghdl::hold(&UnsignedWords { n, k, p }, n as u64, TICKS / SLOWER);
+    }
+}
+
+#[test]
+#[ignore = "needs GHDL"]
+fn memories_and_circuits_in_vhdl() {
+    assert!(ghdl::hold(&Memories::new(3), 1, TICKS / SLOWER) > 0);
+    assert!(ghdl::hold(&Free, 1, TICKS / SLOWER) > 0);
+    assert!(ghdl::hold(&Tree::new(), 1, TICKS / SLOWER) > 0);
+}
+
+#[test]
+#[ignore = "needs GHDL"]
+fn names_that_vhdl_does_not_take() {
+    assert!(ghdl::hold(&Outer, 1, TICKS / SLOWER) > 0);
 }
