@@ -1,7 +1,7 @@
 //! Products, parts and other types of words, and words of memories.
 
 use super::constant::typed;
-use super::expression::{Expressions, NATURAL, Rank, Text};
+use super::expression::{Expressions, Rank, Text};
 use crate::netlist::{Id, Kind, Module, Node, Port, Shape, unsigned};
 use crate::printed::{Names, index_width};
 
@@ -32,6 +32,10 @@ impl Expressions<'_> {
     pub(super) fn slice(&self, of: Id, low: usize, shape: Shape) -> Text {
         let of = bits_of(self.names, self.module, of);
         let whole = self.shape(of);
+        if let Node::Constant(bits) = self.module.nodes[of].0 {
+            let bits = bits >> low & (u64::MAX >> (64 - shape.width.clamp(1, 64)));
+            return typed(bits, shape);
+        }
         if whole.kind == Kind::Bit {
             return self.cast(of, shape);
         }
@@ -166,14 +170,14 @@ pub(super) fn bits_of(names: &Names<'_>, module: &Module, id: Id) -> Id {
     }
 }
 
-/// Returns true if the text of a node can have an index behind it although it has no name: a word of
-/// a memory, and a call.
+/// Returns true if bits of a node can be taken although it has no name of its own: of a word of a
+/// memory, a generic, a constant.
 pub(super) fn is_indexed(module: &Module, id: Id) -> bool {
-    match module.nodes[id] {
-        (Node::Read(..), _) => true,
-        (Node::Parameter(_), shape) => shape.width <= NATURAL,
-        _ => false,
-    }
+    let node = module.nodes[id].0;
+    matches!(
+        node,
+        Node::Read(..) | Node::Parameter(_) | Node::Constant(_)
+    )
 }
 
 /// Converts a word to signed or unsigned without changing its bits.

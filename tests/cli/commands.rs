@@ -185,7 +185,7 @@ fn folder() -> tempfile::TempDir {
     .unwrap();
     fs::create_dir(folder.path().join("rtl_notes")).unwrap();
     for (from, ends) in [
-        ("rtl_notes/golden_model", &[".toml", ".v"][..]),
+        ("rtl_notes/golden_model", &[".toml", ".v", ".vhd"][..]),
         ("rtl_notes/pictures", &[".gtkw"]),
         ("waves", &[".csv", ".gtkw", ".hpgl", ".ngc", ".toml"]),
     ] {

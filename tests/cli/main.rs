@@ -64,6 +64,7 @@ mod trajectory_refusals;
 mod verilog;
 mod verilog_dpi;
 mod verilog_stimulus;
+mod vhdl;
 #[cfg(unix)]
 mod viewer;
 mod waves_of;

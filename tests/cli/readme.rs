@@ -195,7 +195,7 @@ fn every_command_exists() {
         }
     }
     let all = [
-        "check", "clean", "compare", "keys", "list", "mutate", "run", "table", "verilog",
+        "check", "clean", "compare", "keys", "list", "mutate", "run", "table", "verilog", "vhdl",
     ]
     .map(str::to_owned);
     assert_eq!(used, BTreeSet::from(all), "the commands that are shown");

@@ -165,7 +165,7 @@ fn replace(path: &Path, from: &str, to: &str) {
 }
 
 /// A fault in each kind of circuit: file, text, and what stands there in its place.
-const FAULTS: [(&str, &str, &str, &str); 12] = [
+const FAULTS: [(&str, &str, &str, &str); 11] = [
     (
         "placement",
         "placement.vhd",
@@ -221,19 +221,12 @@ const FAULTS: [(&str, &str, &str, &str); 12] = [
         "if rst then",
         "if false then",
     ),
-    // A word of a memory that is not kept.
-    (
-        "axis",
-        "pattern_memory.vhd",
-        "if selected then",
-        "if true then",
-    ),
     // An arithmetic shift as a logical one.
     (
-        "shifter",
-        "shifter.vhd",
-        "<= shift_right(word, 1)",
-        "<= signed(shift_right(unsigned(word), 1))",
+        "error_feedback",
+        "error_feedback.vhd",
+        "shift_right(projected, 2)",
+        "signed(shift_right(unsigned(projected), 2))",
     ),
     // A signed comparison as an unsigned one.
     (

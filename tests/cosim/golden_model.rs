@@ -170,7 +170,7 @@ fn complete(report: &Report, ticks: u64) {
 }
 
 #[test]
-#[ignore = "needs Icarus Verilog and Verilator"]
+#[ignore = "needs Icarus Verilog, Verilator and GHDL"]
 fn the_note_shows_what_its_commands_print() {
     let path = checkout().join(NOTE);
     let note = fs::read_to_string(&path).unwrap();

@@ -4,4 +4,5 @@ mod compare;
 mod fuzz;
 mod input;
 mod verilog;
+mod vhdl;
 mod waves;

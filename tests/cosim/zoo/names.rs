@@ -3,7 +3,7 @@
 
 use motion_rtl::prelude::*;
 
-const PHASES: &[&str] = &["IDLE", "IS", "next one", "GO"];
+const PHASES: &[&str] = &["IDLE", "IS", "next-one", "GO"];
 
 /// A counter with keywords as names.
 #[derive(Debug, Clone)]

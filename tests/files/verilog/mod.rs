@@ -16,7 +16,7 @@ fn circuits() -> impl Iterator<Item = Box<dyn AnyModel>> {
 }
 
 /// A circuit at narrow widths, as far as it can be made at them, and at its own.
-fn models(entry: &'static Entry) -> impl Iterator<Item = Box<dyn AnyModel>> {
+pub fn models(entry: &'static Entry) -> impl Iterator<Item = Box<dyn AnyModel>> {
     let made = [2, 3, 4, 8].into_iter();
     let made = made.filter_map(|width| entry.scaled(width));
     made.chain([entry.full()])

@@ -1,0 +1,4 @@
+//! The text of circuits as VHDL, without any simulator.
+
+mod names;
+mod snapshots;
