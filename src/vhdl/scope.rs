@@ -33,7 +33,7 @@ impl Scope {
     pub(super) fn of(module: &Module, modules: &Modules<'_>) -> Self {
         let mut scope = Scope {
             names: HashMap::new(),
-            taken: reserved().map(str::to_owned).collect(),
+            taken: reserved().iter().map(|word| (*word).to_owned()).collect(),
         };
         for name in ["clk", "rst"] {
             scope.add(Key::Own(name.to_owned()), name);
@@ -71,7 +71,7 @@ impl Scope {
             let name = parameter.name();
             scope.add(Key::Generic(name.clone()), &name);
         }
-        for signal in &module.signals {
+        for signal in ports.into_iter().chain(hidden) {
             let Format::States(states) = signal.field.format else {
                 continue;
             };
@@ -87,14 +87,10 @@ impl Scope {
         if self.names.contains_key(&key) {
             return;
         }
-        // Reserved words are taken, and `legal` returns none of them.
         let legal = legal(name);
         let mut free = legal.clone();
         let mut number = 1;
         while !self.taken.insert(free.clone()) {
-            if matches!(&key, Key::Own(own) if own == "clk" || own == "rst") {
-                break;
-            }
             number += 1;
             free = format!("{legal}_{number}");
         }

@@ -107,7 +107,8 @@ begin
             hread(text_line, word, good);
             if not good then
                 fail(\"tick \" & to_string(tick)
-                    & \": {name}.stimulus has no word of \" & to_string(word'length) & \" bits\");
+                    & \": {name}.stimulus has no word of \" & to_string(word'length)
+                    & \" bits\");
             end if;
             if tick > 0 then
                 clk <= '1';

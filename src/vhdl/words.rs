@@ -1,5 +1,8 @@
 //! Words that cannot be names in VHDL.
 
+use std::collections::HashSet;
+use std::sync::LazyLock;
+
 /// Reserved words of VHDL-2008 and VHDL-2019, with those of PSL.
 const KEYWORDS: &str = "\
     abs access after alias all and architecture array assert assume assume_guarantee attribute \
@@ -23,10 +26,12 @@ const USED: &str = "\
     std_logic std_logic_1164 to_integer to_signed to_unsigned unsigned work";
 
 /// Returns the names that no signal can have.
-pub(super) fn reserved() -> impl Iterator<Item = &'static str> {
-    let words = KEYWORDS.split_ascii_whitespace();
-    let words = words.chain(ANALOG.split_ascii_whitespace());
-    words.chain(USED.split_ascii_whitespace())
+pub(super) fn reserved() -> &'static HashSet<&'static str> {
+    static RESERVED: LazyLock<HashSet<&str>> = LazyLock::new(|| {
+        let words = [KEYWORDS, ANALOG, USED].into_iter();
+        words.flat_map(str::split_ascii_whitespace).collect()
+    });
+    &RESERVED
 }
 
 /// Returns a name that VHDL takes: in small letters, with single underscores inside only, and with
@@ -40,7 +45,7 @@ pub(super) fn legal(name: &str) -> String {
     } else if name.starts_with(|c: char| c.is_ascii_digit()) {
         name.insert_str(0, "n_");
     }
-    if reserved().any(|word| word == name) {
+    if reserved().contains(&*name) {
         name += "_s";
     }
     name

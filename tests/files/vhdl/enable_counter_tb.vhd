@@ -68,8 +68,9 @@ begin
             readline(stimuli, text_line);
             hread(text_line, word, good);
             if not good then
-                fail("tick " & to_string(tick) & ": enable_counter.stimulus has no word of "
-                    & to_string(word'length) & " bits");
+                fail("tick " & to_string(tick)
+                    & ": enable_counter.stimulus has no word of " & to_string(word'length)
+                    & " bits");
             end if;
             if tick > 0 then
                 clk <= '1';
@@ -79,13 +80,15 @@ begin
             stimulus <= word;
             wait for HALF_PERIOD;
             if endfile(golden) then
-                fail("tick " & to_string(tick) & ": enable_counter.expected has no line for it");
+                fail("tick " & to_string(tick)
+                    & ": enable_counter.expected has no line for it");
             end if;
             readline(golden, text_line);
             hread(text_line, expected, good);
             if not good then
-                fail("tick " & to_string(tick) & ": enable_counter.expected has no word of "
-                    & to_string(expected'length) & " bits");
+                fail("tick " & to_string(tick)
+                    & ": enable_counter.expected has no word of " & to_string(expected'length)
+                    & " bits");
             end if;
             if seen /= expected then
                 -- The waves show what follows from the first difference.

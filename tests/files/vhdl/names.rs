@@ -70,8 +70,8 @@ fn every_text_is_legal_and_the_same_every_time() {
         .map(|entry| {
             let narrow = models(entry).next().unwrap();
             let counts = [narrow, entry.full()].map(|circuit| {
+                let vhdl = circuit.vhdl().unwrap();
                 let print = || {
-                    let vhdl = circuit.vhdl().unwrap();
                     let bench = vhdl.testbench(Clock::default());
                     let sources: Vec<SourceFile> =
                         vhdl.sources().into_iter().chain(bench).collect();
