@@ -2,7 +2,7 @@
 
 use super::CALL;
 use crate::checker::VERSION;
-use crate::verilog::SourceFile;
+use crate::printed::SourceFile;
 
 /// Returns the package with the functions of the library.
 pub(super) fn package() -> SourceFile {
