@@ -107,8 +107,8 @@ begin
             hread(text_line, word, good);
             if not good then
                 fail(\"tick \" & to_string(tick)
-                    & \": {name}.stimulus has no word of \" & to_string(word'length)
-                    & \" bits\");
+                    & \": {name}.stimulus has no word of \"
+                    & to_string(word'length) & \" bits\");
             end if;
             if tick > 0 then
                 clk <= '1';
@@ -226,8 +226,8 @@ impl Judge {
             hread(text_line, expected, good);
             if not good then
                 fail(\"tick \" & to_string(tick)
-                    & \": {name}.expected has no word of \" & to_string(expected'length)
-                    & \" bits\");
+                    & \": {name}.expected has no word of \"
+                    & to_string(expected'length) & \" bits\");
             end if;
             if seen /= expected then
                 -- The waves show what follows from the first difference.
