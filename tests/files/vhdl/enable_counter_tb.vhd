@@ -69,8 +69,8 @@ begin
             hread(text_line, word, good);
             if not good then
                 fail("tick " & to_string(tick)
-                    & ": enable_counter.stimulus has no word of " & to_string(word'length)
-                    & " bits");
+                    & ": enable_counter.stimulus has no word of "
+                    & to_string(word'length) & " bits");
             end if;
             if tick > 0 then
                 clk <= '1';
@@ -87,8 +87,8 @@ begin
             hread(text_line, expected, good);
             if not good then
                 fail("tick " & to_string(tick)
-                    & ": enable_counter.expected has no word of " & to_string(expected'length)
-                    & " bits");
+                    & ": enable_counter.expected has no word of "
+                    & to_string(expected'length) & " bits");
             end if;
             if seen /= expected then
                 -- The waves show what follows from the first difference.
