@@ -20,7 +20,7 @@ pub(crate) struct Rules<'r> {
     pub(crate) given: HashMap<Id, String>,
     /// Finds the nodes that need a name.
     pub(crate) needs: Needs,
-    /// Returns the beginning of a name for a node of which no short name says what it is.
+    /// Returns the beginning of a name for a node that has no short name.
     pub(crate) fallback: &'r dyn Fn(Id) -> String,
 }
 

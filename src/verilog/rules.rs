@@ -42,7 +42,7 @@ fn needed(names: &Names<'_>, module: &Module, uses: &[usize]) -> Vec<bool> {
     parts
 }
 
-/// Returns the nodes of which Verilog takes no part without a name, of those that are read.
+/// Returns the nodes that need a name because Verilog takes bits only of names.
 pub(super) fn parts(names: &Names<'_>, module: &Module, read: &[bool]) -> Vec<bool> {
     let mut parts = vec![false; module.nodes.len()];
     for (id, (node, shape)) in module.nodes.iter().enumerate() {

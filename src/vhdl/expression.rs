@@ -290,7 +290,7 @@ impl<'m> Expressions<'m> {
         Text(format!("{left} {sign} {right}"), Rank::Relation)
     }
 
-    /// Returns the own signal of which a node is the value.
+    /// Returns the own signal whose value a node is.
     fn shown_by(&self, id: Id) -> Option<usize> {
         match self.module.nodes[id].0 {
             Node::Signal(signal) => Some(signal),

@@ -67,7 +67,7 @@ fn need_bit(names: &Names<'_>, module: &Module, id: Id, needed: &mut [bool]) {
     }
 }
 
-/// Marks the word of which bits are taken if they cannot be taken without a name.
+/// Marks a word that needs a name because some of its bits are taken.
 fn need_part(
     names: &Names<'_>,
     module: &Module,

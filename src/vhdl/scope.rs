@@ -7,13 +7,13 @@ use std::collections::{HashMap, HashSet};
 
 /// Names in an entity and its architecture, all different in more than the case of letters.
 pub(super) struct Scope {
-    /// The names in VHDL, by what they stand for.
+    /// Names in VHDL.
     names: HashMap<Key, String>,
     /// All names that are in use.
     taken: HashSet<String>,
 }
 
-/// What a name stands for.
+/// Thing that has a name.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 enum Key {
     /// A signal, memory, instance, or wire that an instance drives, by its name in Verilog.

@@ -15,7 +15,7 @@ const KEYWORDS: &str = "\
     sll sra srl strong subtype then to transport type unaffected units until use variable view \
     vmode vpkg vprop vunit wait when while with xnor xor";
 
-/// Reserved words of VHDL-AMS, of which analysers warn.
+/// Reserved words of VHDL-AMS; analysers warn of them.
 const ANALOG: &str = "\
     across break limit nature noise procedural quantity reference spectrum subnature terminal \
     through tolerance";

@@ -166,53 +166,57 @@ fn files_that_do_not_fit_are_no_pass() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();
     let (modules, _) = export(&*circuit, path, SEED, 100);
-    let [stimulus, expected] = ["stimulus", "expected"].map(|end| format!("enable_counter.{end}"));
-    let texts = [&stimulus, &expected].map(|file| fs::read_to_string(path.join(file)).unwrap());
-    let short = |text: &str| -> String {
-        let lines = text.lines().take(99);
+    let more = (1, "x\n", "FAIL: tick 99: enable is 1, expected x");
+    do_not_fit(path, &[more], || simulate(path, "enable_counter", &modules));
+}
+
+/// Puts files of another length in place of those of a testbench of `enable_counter` with 100 ticks,
+/// one at a time: each is refused with its line. Each of `more` is a file, stimulus or expected, a
+/// line that takes the place of the last one, and what is said of it.
+pub fn do_not_fit(
+    path: &Path,
+    more: &[(usize, &str, &str)],
+    simulate: impl Fn() -> (String, bool),
+) {
+    let files = ["stimulus", "expected"].map(|end| format!("enable_counter.{end}"));
+    let texts = files
+        .each_ref()
+        .map(|file| fs::read_to_string(path.join(file)).unwrap());
+    let short = |file: usize| -> String {
+        let lines = texts[file].lines().take(99);
         lines.map(|line| format!("{line}\n")).collect()
     };
-    let cases: [(&str, Option<String>, &str); 6] = [
+    let mut cases = vec![
+        (0, None, "FAIL: enable_counter.stimulus cannot be opened"),
+        (1, None, "FAIL: enable_counter.expected cannot be opened"),
         (
-            &stimulus,
-            None,
-            "FAIL: enable_counter.stimulus cannot be opened",
-        ),
-        (
-            &expected,
-            None,
-            "FAIL: enable_counter.expected cannot be opened",
-        ),
-        (
-            &expected,
-            Some(short(&texts[1])),
+            1,
+            Some(short(1)),
             "FAIL: tick 99: enable_counter.expected has no line for it",
         ),
         (
-            &stimulus,
-            Some(short(&texts[0])),
+            0,
+            Some(short(0)),
             "FAIL: enable_counter.expected is not of a run of 99 ticks",
         ),
         (
-            &stimulus,
+            0,
             Some(String::new()),
             "FAIL: enable_counter.expected is not of a run of 0 ticks",
         ),
-        (
-            &expected,
-            Some(short(&texts[1]) + "x\n"),
-            "FAIL: tick 99: enable is 1, expected x",
-        ),
     ];
+    let more = more.iter();
+    cases.extend(more.map(|&(file, last, said)| (file, Some(short(file) + last), said)));
     for (file, text, line) in cases {
-        for (file, text) in [&stimulus, &expected].into_iter().zip(&texts) {
+        for (file, text) in files.iter().zip(&texts) {
             fs::write(path.join(file), text).unwrap();
         }
+        let file = path.join(&files[file]);
         match text {
-            Some(text) => fs::write(path.join(file), text).unwrap(),
-            None => fs::remove_file(path.join(file)).unwrap(),
+            Some(text) => fs::write(file, text).unwrap(),
+            None => fs::remove_file(file).unwrap(),
         }
-        let (said, well) = simulate(path, "enable_counter", &modules);
+        let (said, well) = simulate();
         assert!(
             !well && said.lines().any(|said| said == line),
             "{line}:\n{said}"

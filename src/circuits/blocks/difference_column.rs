@@ -131,7 +131,7 @@ impl Circuit for DifferenceColumn {
         let doubled = q.part.shift_left(1);
         let down = w.nearest.equals(q.whole) & doubled.below(i.modulus);
         let up = w.nearest.equals(q.whole + 1) & !doubled.below(i.modulus);
-        let mut all = self.given(i, q.part).to_vec();
+        let mut all = self.given(i, q.part);
         all.extend([
             Property::step(
                 "a step adds the number of the column below without an error",
@@ -164,27 +164,35 @@ pub(crate) fn is_modulus(word: U) -> Bit {
     !word.is_zero() & !half.below(word)
 }
 
+/// Returns the assumptions of a circuit with columns. `are_parts` is high if the parts that it adds
+/// are less than the modulus, which `parts` states for steps.
+pub(crate) fn given(
+    step: Bit,
+    load: Bit,
+    modulus: U,
+    (parts, are_parts): (&'static str, Bit),
+) -> Vec<Property> {
+    vec![
+        Property::given(
+            "the modulus is from 1 to half of its range when step is high",
+            !step | is_modulus(modulus),
+        ),
+        Property::given(parts, !step | are_parts),
+        Property::given("load and step are never high together", !(load & step)),
+    ]
+}
+
 impl DifferenceColumn {
     /// Statements about the inputs that the circuits around a column keep.
-    fn given(&self, i: &In, part: U) -> [Property; 4] {
-        [
-            Property::given(
-                "the modulus is from 1 to half of its range when step is high",
-                !i.step | is_modulus(i.modulus),
-            ),
-            Property::given(
-                "the part of the column below is less than the modulus when step is high",
-                !i.step | i.by_part.below(i.modulus),
-            ),
-            Property::given(
-                "load and step are never high together",
-                !(i.record.load & i.step),
-            ),
-            Property::given(
-                "the part that the column holds is less than the modulus when step is high",
-                !i.step | part.below(i.modulus),
-            ),
-        ]
+    fn given(&self, i: &In, part: U) -> Vec<Property> {
+        let below = "the part of the column below is less than the modulus when step is high";
+        let below = (below, i.by_part.below(i.modulus));
+        let mut all = given(i.step, i.record.load, i.modulus, below);
+        all.push(Property::given(
+            "the part that the column holds is less than the modulus when step is high",
+            !i.step | part.below(i.modulus),
+        ));
+        all
     }
 
     /// High if the edge adds the number of the column below.

@@ -111,20 +111,9 @@ impl Circuit for DifferenceEngine {
 
     fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
         let i = &now.i;
-        vec![
-            Property::given(
-                "the modulus is from 1 to half of its range when step is high",
-                !i.step | is_modulus(i.modulus),
-            ),
-            Property::given(
-                "the parts of all columns are less than the modulus when step is high",
-                !i.step | are_parts(i.modulus, &now.p),
-            ),
-            Property::given(
-                "load and step are never high together",
-                !(i.record.load & i.step),
-            ),
-        ]
+        let parts = "the parts of all columns are less than the modulus when step is high";
+        let parts = (parts, are_parts(i.modulus, &now.p));
+        difference_column::given(i.step, i.record.load, i.modulus, parts)
     }
 }
 

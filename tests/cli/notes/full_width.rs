@@ -73,24 +73,18 @@ fn rows(entry: &Entry, stands: &str) -> Vec<String> {
                 let mut concluded = full.induct(LIMIT).expect("it has properties");
                 concluded.retain(|one| one.part.is_none());
                 concluded.retain(|one| !matches!(one.conclusion, Conclusion::Assumed));
-                rows.extend(concluded.iter().map(|one| {
-                    let begin = begin(&one.property);
-                    format!("{begin}{} |\n", by(entry, one))
-                }));
+                let row =
+                    |one: &Concluded<_>| format!("{}{} |\n", begin(&one.property), by(entry, one));
+                rows.extend(concluded.iter().map(row));
             }
         }
     }
     let given = named(|claim| claim == Claim::Given);
     rows.extend(given.map(|name| format!("{}assumed |\n", begin(name))));
-    // What is stated in numbers of the small circuit.
-    let small = entry.proof(&[]).map(|circuit| circuit.invariants());
-    let others = small.unwrap_or_default().into_iter();
-    let others = others.filter(|name| !stated.iter().any(|one| one.name == name));
-    rows.extend(others.map(|name| format!("{}small widths only |\n", begin(&name))));
     rows
 }
 
-/// How a property is proved, or how far.
+/// How a property is proved.
 fn by(entry: &Entry, concluded: &Concluded<Violation>) -> String {
     let helper = if concluded.is_helper {
         "; a helper"
