@@ -292,10 +292,16 @@ fn results_of_all_circuits_are_those_of_a_visit_of_all_states() {
 
 /// Puts faults into circuits at full width, until three are found in each. A fault that a visit of
 /// all states finds at small widths leaves some property without a proof.
-fn find(entries: &[&Entry]) {
+fn find(entries: &[&Entry], limit: Duration) {
     entries.par_iter().for_each(|entry| {
         let mut found = 0;
-        for (name, mutation) in faulty(entry, 16) {
+        let few = faulty(entry, 16);
+        let mut others = faulty(entry, usize::MAX);
+        others.retain(|it| !few.contains(it));
+        for (name, mutation) in few.into_iter().chain(others) {
+            if found == 3 {
+                break;
+            }
             let of = |base: &dyn Fn() -> Result<Elaborated, crate::engine::EngineError>| {
                 mutated(&mutation, base)?.ok()
             };
@@ -305,10 +311,10 @@ fn find(entries: &[&Entry]) {
                 continue;
             };
             let verdict = visited(entry, small);
-            if found == 3 || matches!(verdict, Verdict::Proved(_)) {
+            if matches!(verdict, Verdict::Proved(_)) {
                 continue;
             }
-            let all = concluded(&full, SHORT);
+            let all = concluded(&full, limit);
             let proved = all.iter().all(|it| it.conclusion.is_proved());
             let broken = matches!(verdict, Verdict::Broken { .. });
             let name = format!("{}, {name}", entry.name);
@@ -321,5 +327,16 @@ fn find(entries: &[&Entry]) {
 
 #[test]
 fn faults_are_found_at_full_width() {
-    find(&few());
+    find(&few(), SHORT);
+}
+
+/// Circuits whose faults show only after many ticks at full width: they are left open there.
+const LATE: &[&str] = &["axis", "mul_div", "pulse_interpolator"];
+
+#[test]
+#[ignore = "takes long"]
+fn faults_of_all_circuits_are_found_at_full_width() {
+    let mut all = visitable();
+    all.retain(|entry| !LATE.contains(&entry.name));
+    find(&all, Duration::from_millis(1500));
 }

@@ -74,6 +74,9 @@ pub struct Row {
     pub transitions: Option<u64>,
     /// Most ticks from power-on to a state for the first time.
     pub depth: Option<u64>,
+    /// States of a proof in which the assumptions allow no input: it covers less than it seems to
+    /// if they contradict each other.
+    pub dead_ends: Option<u64>,
     /// Duration in seconds.
     pub seconds: f64,
     /// Report of the failure.
@@ -141,9 +144,14 @@ impl Report {
                 (Ended::NotDecided, _) => "not decided",
                 (Ended::TooWide, _) => "too wide",
             };
+            let dead_ends = match row.dead_ends {
+                None | Some(0) => String::new(),
+                Some(1) => ", 1 state without a possible input".to_owned(),
+                Some(states) => format!(", {states} states without a possible input"),
+            };
             let _ = writeln!(
                 table,
-                "{:<22} {:>5} {:>10} {:>12} {:>5} {:>7.2} s  {ended}{}",
+                "{:<22} {:>5} {:>10} {:>12} {:>5} {:>7.2} s  {ended}{}{dead_ends}",
                 row.circuit,
                 row.width(),
                 number(row.states),
@@ -203,5 +211,42 @@ impl Report {
             false if any(Ended::Broken) => Err(Failure::Check(faults.join("\n"))),
             false => Err(Failure::Undecided(faults.join("\n"))),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn states_without_a_possible_input_are_shown() {
+        let asked = Asked {
+            circuits: Vec::new(),
+            changes: Changes::default(),
+            limit: 100,
+            seconds: None,
+        };
+        let row = |dead_ends| Row {
+            circuit: "divider".to_owned(),
+            kind: Kind::Proof,
+            widths: BTreeMap::from([("width".to_owned(), 4)]),
+            invariants: Vec::new(),
+            ended: Ended::Holds,
+            states: Some(12),
+            transitions: Some(90),
+            depth: Some(3),
+            dead_ends,
+            seconds: 0.0,
+            fault: None,
+        };
+        let rows = [None, Some(0), Some(1), Some(2)].map(row).into();
+        let report = Report::new(asked, Shard::default(), rows, Vec::new());
+        let table = report.table();
+        let ends = table.lines().filter_map(|line| line.split_once(" s  "));
+        let ends: Vec<_> = ends.map(|(_, end)| end).collect();
+        let proved = "proved";
+        let one = "proved, 1 state without a possible input";
+        let two = "proved, 2 states without a possible input";
+        assert_eq!(ends, [proved, proved, one, two]);
     }
 }

@@ -133,6 +133,7 @@ fn begun(task: &Task, invariants: Vec<String>) -> Row {
         states: None,
         transitions: None,
         depth: None,
+        dead_ends: None,
         seconds: 0.0,
         fault: None,
     }
@@ -168,11 +169,12 @@ fn prove(
             states,
             transitions,
             depth,
-            ..
+            dead_ends,
         })) => Row {
             states: Some(states),
             transitions: Some(transitions),
             depth: Some(depth),
+            dead_ends: Some(dead_ends),
             ..row
         },
         Ok(Verdict::Undecided(progress)) => Row {

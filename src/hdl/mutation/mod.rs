@@ -1,8 +1,9 @@
 //! Single faults that are put into a circuit during elaboration.
 //!
 //! The source location of its node identifies a fault, so a fault is the same at any width. It
-//! affects every instance of the circuit, as a slip in the source would. Properties see its effect
-//! but are not changed themselves.
+//! affects every instance of the circuit, as a slip in the source would, but for instances in which
+//! it is none: words of different widths cannot be exchanged. Properties see its effect but are not
+//! changed themselves.
 
 mod change;
 mod find;
@@ -186,7 +187,10 @@ pub(super) fn visit(circuit: &str, elaboration: &mut Elaboration, nets: &mut Net
             }
         }
         Some(Task::Put { mutation, done }) if mutation.circuit == circuit => {
-            *done |= change::put(mutation, builder, nets, modules);
+            // What is a fault at one width may be impossible at another.
+            if find::all(circuit, builder, nets, modules).contains(mutation) {
+                *done |= change::put(mutation, builder, nets, modules);
+            }
             // A property must not share the faulty nodes.
             builder.known.clear();
         }

@@ -128,3 +128,89 @@ fn without_a_fault_a_circuit_is_as_before() {
     };
     assert!(mutated(&elsewhere, || elaborate(&sum)).is_none());
 }
+
+/// Compares bit 1 of each of two words.
+#[derive(Debug, Clone)]
+pub(crate) struct Bits {
+    widths: [usize; 2],
+}
+
+signals! { for Bits as c;
+    /// Ports in.
+    pub struct BitsIn {
+        /// First word.
+        a: U(c.widths[0]),
+        /// Second word.
+        b: U(c.widths[1]),
+    }
+    /// Nets.
+    pub struct BitsNet {
+        /// High if both bits are equal.
+        pub same: Bit,
+    }
+}
+
+impl Circuit for Bits {
+    const NAME: &'static str = "bits";
+    const ABOUT: &'static str = "compares bit 1 of each of two words";
+    records!(BitsIn, Nothing, BitsNet);
+
+    fn tick(&self, i: BitsIn, _: Nothing, _: Nothing) -> (BitsNet, Nothing) {
+        let same = i.a.slice(1, 1).equals(i.b.slice(1, 1));
+        (BitsNet { same }, Nothing)
+    }
+}
+
+/// Passes its words on to a part.
+#[derive(Debug, Clone)]
+pub(crate) struct Around {
+    widths: [usize; 2],
+}
+
+signals! { for Around as c;
+    /// Ports in.
+    pub struct AroundIn {
+        /// First word.
+        a: U(c.widths[0]),
+        /// Second word.
+        b: U(c.widths[1]),
+    }
+    /// Circuits inside.
+    pub struct AroundParts {
+        /// The comparison.
+        pub bits: Part<Bits>(Bits { widths: c.widths }),
+    }
+    /// Nets.
+    pub struct AroundNet {
+        /// High if both bits are equal.
+        pub same: Bit,
+    }
+}
+
+impl Circuit for Around {
+    const NAME: &'static str = "around";
+    const ABOUT: &'static str = "passes its words on to a part";
+    records!(AroundIn, Nothing, AroundNet, AroundParts);
+
+    fn tick(&self, i: AroundIn, _: Nothing, p: AroundParts) -> (AroundNet, Nothing) {
+        let same = p.bits.settle(BitsIn { a: i.a, b: i.b }).w.same;
+        (AroundNet { same }, Nothing)
+    }
+}
+
+#[test]
+fn a_fault_has_no_place_where_widths_forbid_it() {
+    let circuit = |a, b| Around { widths: [a, b] };
+    for (name, least, forbidden) in [
+        ("around", "bits.a: crossed with the next one", [4, 5]),
+        ("bits", "slice: one bit more", [2, 3]),
+    ] {
+        let all = mutations(name, || elaborate(&circuit(4, 4))).1;
+        let mut faults = all.iter().filter(|it| it.to_string().ends_with(least));
+        let fault = faults.next().expect("it is possible with these widths");
+        assert!(mutated(fault, || elaborate(&circuit(5, 5))).is_some());
+        let [a, b] = forbidden;
+        let made = mutated(fault, || elaborate(&circuit(a, b)));
+        assert!(made.is_none(), "{fault}");
+    }
+}
