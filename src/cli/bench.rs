@@ -3,6 +3,8 @@
 use super::chosen::Chosen;
 use super::export::{Export, Printed};
 use super::files::{self, Files};
+use super::from_waves::FromWaves;
+use super::names::Names;
 use super::{Failure, print, warn};
 use clap::Args;
 use motion_rtl::check::{Drive, Untoggled, play};
@@ -12,7 +14,7 @@ use motion_rtl::registry::AnyModel;
 use motion_rtl::sim::RunError;
 use motion_rtl::trace::Clock;
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A circuit and the files that are written of it.
 #[derive(Debug, Args)]
@@ -35,6 +37,10 @@ pub struct Bench {
         conflicts_with = "testbench"
     )]
     stimulus: Option<PathBuf>,
+    #[command(flatten)]
+    waves: FromWaves,
+    #[command(flatten)]
+    pub names: Names,
     /// Clock of the golden waves.
     #[arg(
         long,
@@ -50,7 +56,7 @@ pub struct Bench {
         allow_negative_numbers = true,
         default_value_t = 1,
         requires = "testbench",
-        conflicts_with = "stimulus"
+        conflicts_with_all = ["stimulus", "from_waves"]
     )]
     seed: u64,
 }
@@ -71,18 +77,20 @@ pub fn write(
     printed: Printed<'_>,
     command: &str,
 ) -> Result<(), Failure> {
-    if let Some(path) = &arguments.stimulus {
-        let written = arguments.out.join(format!("{}.stimulus", circuit.name()));
-        files::spare("--out", &written, [path.as_path()], "another directory")?;
+    for (read, extension) in [
+        (arguments.stimulus.as_deref(), "stimulus"),
+        (arguments.waves.path(), "vcd"),
+    ] {
+        let written = arguments
+            .out
+            .join(format!("{}.{extension}", circuit.name()));
+        files::spare("--out", &written, read, "another directory")?;
     }
     let mut files = Files::begin(&arguments.out, circuit.name())?;
     let mut text = String::new();
     let name = format!("{command} {}", arguments.chosen);
     let clock = clock(arguments)?;
-    let played = match &arguments.stimulus {
-        Some(path) => Some((path, read_path(path, &ports(circuit, printed))?)),
-        None => None,
-    };
+    let played = played(arguments, circuit, printed)?;
     let bench = (arguments.testbench.is_some() || played.is_some()).then_some(clock);
     files.export(Export::new(printed, bench, name))?;
     if bench.is_some() {
@@ -91,10 +99,10 @@ pub fn write(
         let mut expected = files.create("expected")?;
         let outputs = (&mut waves, &mut stimulus, &mut expected);
         let (what, driven) = match (&played, arguments.testbench) {
-            (Some((path, inputs)), _) => {
+            (Some(Played { file, inputs, .. }), _) => {
                 let elaborated = circuit.model().map_err(RunError::from)?;
                 let driven = play(&elaborated, inputs, clock, outputs.0, outputs.1, outputs.2)?;
-                let what = format!("{} ticks of {}", inputs.ticks(), path.display());
+                let what = format!("{} ticks of {}", inputs.ticks(), file.display());
                 (what, driven)
             }
             (None, ticks) => {
@@ -129,10 +137,11 @@ pub fn write(
         );
         let signals = driven.coverage.signals();
         let _ = writeln!(text, "{}", never_changed(&still, signals, circuit.name()));
-        if let Some((_, PortInputs { low, .. })) = &played
-            && !low.is_empty()
-        {
-            let _ = writeln!(text, "ports without a column stay low: {}", low.join(", "));
+        if let Some(Played { inputs, source, .. }) = &played {
+            text += source;
+            if !inputs.low.is_empty() {
+                let _ = writeln!(text, "ports that stay low: {}", inputs.low.join(", "));
+            }
         }
         let _ = writeln!(
             text,
@@ -152,6 +161,43 @@ pub fn write(
         ));
     }
     print(&text)
+}
+
+/// Inputs of the user, to be played.
+struct Played<'a> {
+    file: &'a Path,
+    inputs: PortInputs,
+    /// Lines that say which part of the file they are.
+    source: String,
+}
+
+/// Reads the inputs of the user, if there are any.
+fn played<'a>(
+    arguments: &'a Bench,
+    circuit: &dyn AnyModel,
+    printed: Printed<'_>,
+) -> Result<Option<Played<'a>>, Failure> {
+    let Bench { waves, names, .. } = arguments;
+    if let Some(file) = waves.path() {
+        let model = circuit.model().map_err(RunError::from)?;
+        let taken = waves.read(file, names, &model)?;
+        let golden = arguments.out.join(format!("{}.vcd", circuit.name()));
+        return Ok(Some(Played {
+            file,
+            source: waves.text(file, names, &taken, &golden),
+            inputs: taken.inputs,
+        }));
+    }
+    let read = |file: &'a PathBuf| {
+        let inputs = read_path(file, &ports(circuit, printed))?;
+        let source = String::new();
+        Ok(Played {
+            file,
+            inputs,
+            source,
+        })
+    };
+    arguments.stimulus.as_ref().map(read).transpose()
 }
 
 /// Returns the input ports with their names in waves and in Verilog.

@@ -3,35 +3,24 @@
 use super::chosen::Chosen;
 use super::export::Export;
 use super::files::Files;
+use super::names::Names;
 use super::{Failure, print};
 use clap::Args;
 use motion_rtl::compare::{BoundPorts, Map, is_identifier};
 use motion_rtl::verilog::{Binding, DpiChecker};
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
-
-/// Value of `--reset` for a design without a reset.
-const NONE: &str = "none";
+use std::path::Path;
 
 /// Arguments of a checker.
 #[derive(Debug, Args)]
 pub struct Dpi {
     /// Writes a SystemVerilog checker in place of the circuit: it compares your design with the
     /// model at every clock edge, in your simulator.
-    #[arg(long, conflicts_with = "bench")]
+    #[arg(long, group = "design", conflicts_with = "bench")]
     dpi: bool,
     /// Module of your design to which the checker is bound; the name of the circuit by default.
     #[arg(long, value_name = "NAME", requires = "dpi")]
     module: Option<String>,
-    /// Names that differ and ports to leave out, in TOML, as in `compare`.
-    #[arg(long, value_name = "FILE", requires = "dpi")]
-    map: Option<PathBuf>,
-    /// Clock of your module.
-    #[arg(long, value_name = "NAME", requires = "dpi")]
-    clock: Option<String>,
-    /// Synchronous reset of your module: NAME, !NAME if it is active low, or none.
-    #[arg(long, value_name = "NAME", default_value = "rst", requires = "dpi")]
-    reset: String,
     /// Compares from the first clock edge on, without waiting for a reset.
     #[arg(long, requires = "dpi")]
     from_power_on: bool,
@@ -42,16 +31,16 @@ impl Dpi {
     pub fn is_asked(&self) -> bool {
         self.dpi
     }
+}
 
-    /// Returns the expression for the reset.
-    fn reset(&self) -> Result<String, Failure> {
-        if self.reset == NONE {
-            return Ok("1'b0".to_owned());
-        }
-        match self.reset.strip_prefix('!') {
-            Some(name) => Ok(format!("~{}", identifier("--reset", name)?)),
-            None => identifier("--reset", &self.reset),
-        }
+/// Returns the expression for a reset.
+fn expression(reset: &str) -> Result<String, Failure> {
+    if reset == Names::NONE {
+        return Ok("1'b0".to_owned());
+    }
+    match reset.strip_prefix('!') {
+        Some(name) => Ok(format!("~{}", identifier("--reset", name)?)),
+        None => identifier("--reset", reset),
     }
 }
 
@@ -67,21 +56,22 @@ fn identifier(field: &'static str, name: &str) -> Result<String, Failure> {
 }
 
 /// Writes the checker of a circuit.
-pub fn checker(chosen: &Chosen, dpi: &Dpi, out: &Path) -> Result<(), Failure> {
+pub fn checker(chosen: &Chosen, dpi: &Dpi, names: &Names, out: &Path) -> Result<(), Failure> {
     let (model, settings) = chosen.running()?;
     let circuit = model.name();
-    let bound = match &dpi.map {
+    let bound = match names.map() {
         Some(path) => Map::read(path)?.bound(&model)?,
         None => BoundPorts::default(),
     };
     let module = identifier("--module", dpi.module.as_deref().unwrap_or(circuit))?;
-    let clock = identifier("--clock", dpi.clock.as_deref().unwrap_or("clk"))?;
+    let clock = identifier("--clock", names.clock().unwrap_or("clk"))?;
+    let reset = names.reset().unwrap_or("rst");
     let binding = Binding {
         module,
         clock,
-        reset: dpi.reset()?,
+        reset: expression(reset)?,
         ports: bound.ports,
-        from_power_on: dpi.from_power_on || dpi.reset == NONE,
+        from_power_on: dpi.from_power_on || reset == Names::NONE,
     };
     let checker = DpiChecker::new(&model, &settings, &bound.left);
     let checker = checker.map_err(|error| Failure::Argument {
@@ -92,7 +82,7 @@ pub fn checker(chosen: &Chosen, dpi: &Dpi, out: &Path) -> Result<(), Failure> {
     let mut sources = Vec::from(checker.sources());
     let mut text = String::new();
     // A module without registers has no clock that could be bound.
-    match checker.is_clocked() || dpi.clock.is_some() {
+    match checker.is_clocked() || names.clock().is_some() {
         true => sources.push(checker.binding(&binding)),
         false => {
             // Writing to a string does not fail.

@@ -19,7 +19,7 @@ pub struct Arguments {
 pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
     let Arguments { bench, dpi } = arguments;
     if dpi.is_asked() {
-        return dpi::checker(&bench.chosen, dpi, &bench.out);
+        return dpi::checker(&bench.chosen, dpi, &bench.names, &bench.out);
     }
     let circuit = bench.chosen.model()?;
     let verilog = circuit.verilog().map_err(|error| unprinted(&error))?;

@@ -55,6 +55,7 @@ mod ends;
 mod gap;
 mod ghw;
 mod hold;
+mod inputs;
 mod map;
 mod mapped;
 mod names;
@@ -74,6 +75,7 @@ mod value;
 mod wave;
 
 pub use bound::{BoundPorts, is_identifier};
+pub use inputs::{DumpInputs, Reset, inputs};
 pub use map::Map;
 pub use report::{Cell, Difference, Mismatch, Report, Row, Side, WidthDifference};
 pub use value::WIDEST;

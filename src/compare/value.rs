@@ -71,6 +71,11 @@ impl Value {
         }
     }
 
+    /// Returns the bits, if all of them are 0 or 1.
+    pub fn known(self) -> Option<u64> {
+        self.is_known().then_some(self.ones)
+    }
+
     pub fn is_known(self) -> bool {
         self.unknown == 0
     }

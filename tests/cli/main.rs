@@ -24,6 +24,7 @@ mod drawings;
 mod dumps;
 mod fault_reports;
 mod files;
+mod from_waves;
 mod fst;
 mod json_schema;
 mod key_ends;

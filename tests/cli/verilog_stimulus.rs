@@ -65,7 +65,7 @@ fn ports_without_a_column_are_told() {
     let bench = Bench::with("inputs.csv", "scan,push,target_x\n1,1,-5\n0,0,0\n");
     let inputs = ["--stimulus", "inputs.csv", "--out", "v"];
     let said = bench.succeed(&[&["verilog", "linear_interpolator"], &inputs[..]].concat());
-    let line = "\nports without a column stay low: hold, target_y, speed, acceleration_time, \
+    let line = "\nports that stay low: hold, target_y, speed, acceleration_time, \
                 deceleration_time, halt, clear\n";
     assert!(said.contains(line), "{said}");
     // Names in waves have dots, those in Verilog have not.

@@ -42,11 +42,26 @@ pub struct PortInputs {
     /// Bits of all ports, tick by tick.
     words: Vec<u64>,
     resets: Vec<bool>,
-    /// Paths of the ports without a column, which stay low.
+    /// Paths of the ports that no input is given for: they stay low.
     pub low: Vec<String>,
 }
 
 impl PortInputs {
+    /// Begins inputs of a number of ports; those in `low` are told to be low throughout.
+    pub(crate) fn new(ports: usize, low: Vec<String>) -> Self {
+        PortInputs {
+            ports,
+            low,
+            ..PortInputs::default()
+        }
+    }
+
+    /// Adds a tick: the bits of each port, and true for a reset.
+    pub(crate) fn push(&mut self, words: &[u64], rst: bool) {
+        self.words.extend_from_slice(words);
+        self.resets.push(rst);
+    }
+
     /// Returns the number of ticks.
     pub fn ticks(&self) -> usize {
         self.resets.len()
