@@ -33,9 +33,10 @@ pub struct FromWaves {
         value_name = "TICKS",
         requires = "from_waves",
         allow_negative_numbers = true,
+        default_value_t = 0,
         value_parser = clap::value_parser!(i64).range(0..)
     )]
-    skip: Option<i64>,
+    skip: i64,
     /// Count of ticks to take; all by default.
     #[arg(
         long,
@@ -69,7 +70,7 @@ impl FromWaves {
             scope: self.scope.clone(),
             ignore_case: self.ignore_case,
             map,
-            skip: self.skip.unwrap_or_default(),
+            skip: self.skip,
             ticks: 0..self.ticks.unwrap_or(u64::MAX),
             ..Settings::default()
         };
@@ -108,8 +109,8 @@ impl FromWaves {
         if self.ignore_case {
             compare += " --ignore-case";
         }
-        if let Some(skip) = self.skip.filter(|skip| *skip > 0) {
-            let _ = write!(compare, " --skip {skip}");
+        if self.skip > 0 {
+            let _ = write!(compare, " --skip {}", self.skip);
         }
         if let Some(ticks) = self.ticks {
             let _ = write!(compare, " --ticks {ticks}");

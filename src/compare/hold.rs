@@ -44,6 +44,20 @@ impl Samples {
         last.map_or(Value::unknown(self.width), |change| change.1)
     }
 
+    /// Returns the parts of some ticks in which the value is unknown.
+    pub fn unknown(&self, ticks: &Range<i128>) -> Vec<Range<i128>> {
+        let mut unknown = Vec::new();
+        let (mut from, mut place) = (ticks.start, self.until(ticks.start));
+        while from < ticks.end {
+            let until = self.tick(place).unwrap_or(ticks.end).min(ticks.end);
+            if !self.before(place).is_known() {
+                unknown.push(from..until);
+            }
+            (from, place) = (until, place + 1);
+        }
+        unknown
+    }
+
     /// Returns the value in a tick.
     pub fn at(&self, tick: i128) -> Value {
         self.before(self.until(tick))

@@ -1,15 +1,14 @@
 //! Inputs of a circuit from waves of another simulator.
 
+use super::hold::Samples;
 use super::map::{Entry, Map, Partner};
 use super::mapped::by_name;
 use super::names::listed;
 use super::pair::{self, Pair};
 use super::ports::Ports;
 use super::runs::Run;
-use super::scope;
-use super::value::Value;
 use super::wave::Wave;
-use super::{Settings, clocks};
+use super::{Settings, scope, ticks};
 use crate::engine::Watch;
 use crate::input::Fault;
 use crate::input::stimulus::PortInputs;
@@ -21,6 +20,9 @@ use std::path::Path;
 
 /// Greatest number of words that are taken from a file: ticks times ports.
 const WORDS: u64 = 1 << 27;
+
+/// Clock of this crate's waves.
+const CLK: &str = "clk";
 
 /// Reset that is looked for by default.
 const RST: &str = "rst";
@@ -92,18 +94,12 @@ fn of_waves(
     reset: &Reset,
 ) -> Result<DumpInputs, Fault> {
     let mut golden = names(model)?;
-    let own = Settings {
-        clock: "clk".to_owned(),
-        other_clock: Some(
-            settings
-                .other_clock
-                .as_ref()
-                .unwrap_or(&settings.clock)
-                .clone(),
-        ),
-        ..settings.clone()
-    };
-    let both = clocks(&mut golden, &mut other, &own)?;
+    if settings.ignore_case {
+        other.fold_case();
+    }
+    let clock = settings.other_clock.as_ref().unwrap_or(&settings.clock);
+    let clock = ticks::clock(&mut other, "--clock", clock, None)?;
+    let both = (ticks::clock(&mut golden, "--clock", CLK, None)?, clock);
     let wanted = settings.scope.as_deref();
     let ports = Ports::default();
     let pairing = pair::pair(&golden, &other, both, &settings.map, ports, wanted, false)?;
@@ -146,28 +142,28 @@ fn of_waves(
     // The reset comes last.
     pairs.push(reset.clone());
     let partners = pairs.iter().flatten();
-    other.load(partners.map(|pair| pair.other).chain([both.1]))?;
-    let run = Run::of(other, both.1)?;
-    let ticks = ticks(&run, settings, &pairs)?;
+    other.load(partners.map(|pair| pair.other).chain([clock]))?;
+    let run = Run::of(other, clock)?;
+    let ticks = taken(&run, settings, &pairs)?;
     let columns = pairs.iter().map(|pair| match pair {
-        Some(pair) => Column::of(&run, pair).map(Some),
+        Some(pair) => Ok(Some((&pair.name, run.partner(pair, 0)?))),
         None => Ok(None),
     });
-    let mut columns = columns.collect::<Result<Vec<_>, _>>()?;
-    are_known(&run, &columns, &ticks)?;
+    let columns = columns.collect::<Result<Vec<_>, Fault>>()?;
+    are_known(&run, columns.iter().flatten(), &ticks)?;
     let mut played = PortInputs::new(inputs.len(), low);
     let mut words = vec![0; pairs.len()];
     for tick in ticks {
-        for (word, column) in words.iter_mut().zip(&mut columns) {
-            if let Some(column) = column {
-                *word = column.at(tick).known().unwrap_or_default();
+        for (word, column) in words.iter_mut().zip(&columns) {
+            if let Some((_, samples)) = column {
+                *word = samples.at(tick).known().unwrap_or_default();
             }
         }
         played.push(&words[..inputs.len()], words[inputs.len()] == 1);
     }
     Ok(DumpInputs {
         inputs: played,
-        clock: run.wave.variables[both.1].path.clone(),
+        clock: run.wave.variables[clock].path.clone(),
         reset: reset.map(|pair| pair.name),
         scope: pairing.scope,
     })
@@ -216,12 +212,13 @@ fn found(other: &Wave, reset: &Reset, scope: Option<&str>) -> Result<Option<Pair
 }
 
 /// Returns the ticks of the file that are taken.
-fn ticks(run: &Run, settings: &Settings, pairs: &[Option<Pair>]) -> Result<Range<u64>, Fault> {
+fn taken(run: &Run, settings: &Settings, pairs: &[Option<Pair>]) -> Result<Range<i128>, Fault> {
     let fault = |field: &str, problem: String, allowed: String| {
         Err(Fault::new(&run.wave.file, 0, field, problem, allowed))
     };
     let delay = pairs.iter().flatten().map(|pair| pair.delay).max();
-    let end = run.ticks.count.saturating_sub(delay.unwrap_or_default());
+    let delay = delay.unwrap_or_default();
+    let end = run.ticks.count.saturating_sub(delay);
     let Ok(skip) = u64::try_from(settings.skip) else {
         return fault(
             "--skip",
@@ -246,7 +243,7 @@ fn ticks(run: &Run, settings: &Settings, pairs: &[Option<Pair>]) -> Result<Range
         );
     }
     let mut off = run.ticks.off.iter();
-    if let Some(off) = off.find(|off| off.start < end && start < off.end) {
+    if let Some(off) = off.find(|off| off.start < end + delay && start < off.end) {
         let problem = format!(
             "the dump is switched off in ticks {} to {}",
             off.start,
@@ -258,73 +255,19 @@ fn ticks(run: &Run, settings: &Settings, pairs: &[Option<Pair>]) -> Result<Range
             "--skip and --ticks that leave them out".to_owned(),
         );
     }
-    Ok(start..end)
-}
-
-/// Values of a signal in the ticks of its file.
-struct Column {
-    path: String,
-    changes: Vec<(u64, Value)>,
-    width: u32,
-    /// Number of changes up to the tick that was asked for last.
-    passed: usize,
-}
-
-impl Column {
-    fn of(run: &Run, pair: &Pair) -> Result<Self, Fault> {
-        let changes = run.wave.changes(pair.other, pair.low, pair.width)?;
-        let mut changes = run.ticks.sample(&changes);
-        for (tick, value) in &mut changes {
-            // Earlier by the delay: what shows before its first tick is over then.
-            *tick = tick.saturating_sub(pair.delay);
-            if pair.invert {
-                *value = value.inverted(pair.width);
-            }
-        }
-        Ok(Column {
-            path: pair.name.clone(),
-            changes,
-            width: pair.width,
-            passed: 0,
-        })
-    }
-
-    /// Returns the value in a tick; the ticks that are asked for do not decrease.
-    fn at(&mut self, tick: u64) -> Value {
-        while self
-            .changes
-            .get(self.passed)
-            .is_some_and(|change| change.0 <= tick)
-        {
-            self.passed += 1;
-        }
-        let last = self.passed.checked_sub(1);
-        let last = last.and_then(|last| self.changes.get(last));
-        last.map_or(Value::unknown(self.width), |change| change.1)
-    }
-
-    /// Returns the ticks in which a value is unknown.
-    fn unknown(&self) -> impl Iterator<Item = Range<u64>> {
-        let ends = self.changes.iter().skip(1).map(|change| change.0);
-        let ends = ends.chain([u64::MAX]);
-        let known = self.changes.iter().zip(ends);
-        let unknown = known.filter(|((_, value), _)| !value.is_known());
-        let before = 0..self.changes.first().map_or(u64::MAX, |change| change.0);
-        let unknown = unknown.map(|((start, _), end)| *start..end);
-        std::iter::once(before)
-            .chain(unknown)
-            .filter(|ticks| !ticks.is_empty())
-    }
+    Ok(start.into()..end.into())
 }
 
 /// Refuses values that are x or z in these ticks.
-fn are_known(run: &Run, columns: &[Option<Column>], ticks: &Range<u64>) -> Result<(), Fault> {
+fn are_known<'a>(
+    run: &Run,
+    columns: impl Iterator<Item = &'a (&'a String, Samples)>,
+    ticks: &Range<i128>,
+) -> Result<(), Fault> {
     let mut all = Vec::new();
-    for column in columns.iter().flatten() {
-        let unknown = column
-            .unknown()
-            .filter(|it| it.start < ticks.end && ticks.start < it.end);
-        all.extend(unknown.map(|it| (it.start.max(ticks.start), it.end, &column.path)));
+    for (path, samples) in columns {
+        let unknown = samples.unknown(ticks).into_iter();
+        all.extend(unknown.map(|it| (it.start, it.end, path)));
     }
     all.sort_unstable();
     let Some(&(tick, _, path)) = all.first() else {
@@ -343,5 +286,5 @@ fn are_known(run: &Run, columns: &[Option<Column>], ticks: &Range<u64>) -> Resul
         _ => "0 or 1 at all input ports in all ticks".to_owned(),
     };
     let problem = format!("is x or z in tick {tick}");
-    Err(Fault::new(&run.wave.file, 0, path, problem, allowed))
+    Err(Fault::new(&run.wave.file, 0, *path, problem, allowed))
 }

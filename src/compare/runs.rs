@@ -49,6 +49,22 @@ impl Run {
         Ok(Run { wave, clock, ticks })
     }
 
+    /// Returns the samples of a golden signal's partner in this file, whose first tick is `start`.
+    pub fn partner(&self, pair: &Pair, start: i128) -> Result<Samples, Fault> {
+        let width = pair.width;
+        let mut changes = self.wave.changes(pair.other, pair.low, width)?;
+        if pair.invert {
+            for (_, value) in &mut changes {
+                *value = value.inverted(width);
+            }
+        }
+        Ok(Samples {
+            changes: self.ticks.sample(&changes),
+            zero: start - i128::from(pair.delay),
+            width,
+        })
+    }
+
     fn side(&self, alone: i128, longer: i128, off: i128) -> Side {
         Side {
             file: self.wave.file.clone(),
@@ -67,23 +83,12 @@ impl Runs {
     pub fn samples(&self, pair: &Pair) -> Result<(Samples, Samples), Fault> {
         let width = pair.width;
         let golden = self.golden.wave.changes(pair.golden, 0, width)?;
-        let mut other = self.other.wave.changes(pair.other, pair.low, width)?;
-        if pair.invert {
-            for (_, value) in &mut other {
-                *value = value.inverted(width);
-            }
-        }
         let golden = Samples {
             changes: self.golden.ticks.sample(&golden),
             zero: self.golden.ticks.first.into(),
             width,
         };
-        let other = Samples {
-            changes: self.other.ticks.sample(&other),
-            zero: self.start - i128::from(pair.delay),
-            width,
-        };
-        Ok((golden, other))
+        Ok((golden, self.other.partner(pair, self.start)?))
     }
 
     fn tally(&self, pair: &Pair) -> Result<Tally, Fault> {

@@ -75,7 +75,7 @@ pub(super) fn find(
             0,
             "names",
             "no golden signal has a partner of the same name in any scope",
-            "--map, which pairs other names; --template begins one",
+            "--map, which pairs other names; `compare --template` begins one",
         )),
         _ => Err(fault(
             format!(

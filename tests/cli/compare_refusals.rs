@@ -256,7 +256,7 @@ fn scopes_and_windows_that_are_none_are_refused() {
         &foreign,
         &[],
         &expect![[r#"
-            error: o.vcd: names: no golden signal has a partner of the same name in any scope; allowed: --map, which pairs other names; --template begins one
+            error: o.vcd: names: no golden signal has a partner of the same name in any scope; allowed: --map, which pairs other names; `compare --template` begins one
         "#]],
     );
     refused(

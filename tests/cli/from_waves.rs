@@ -92,6 +92,39 @@ fn inputs_of_a_simulation_are_played() {
     );
 }
 
+/// The signals have the circuit's names, and the reset is `rst`.
+#[test]
+fn names_of_the_circuit_need_no_map() {
+    let bench = bench();
+    let design = DESIGN.replace("wire 8 b bus [7:0]", "wire 4 b period [3:0]");
+    let design = design
+        .replace("b00110000", "b0011")
+        .replace("b00101111", "b0010");
+    bench.write("design.vcd", design.replace("rst_n", "rst"));
+    let command = [
+        "verilog",
+        "enable_counter",
+        "--width",
+        "4",
+        "--from-waves",
+        "design.vcd",
+    ];
+    let taken = [&command[..], &["--skip", "1", "--out", "v"]].concat();
+    let said = bench.succeed(&taken);
+    let source = "\ninputs from tb.dut, by the clock tb.dut.clk, reset by tb.dut.rst\n";
+    assert!(said.contains(source), "{said}");
+    let stimulus = bench.read("v/enable_counter.stimulus");
+    assert_eq!(stimulus, "03\n13\n13\n02\n12\n12\n");
+    bench.succeed(&[&taken[..], &["--reset", "none"]].concat());
+    let stimulus = bench.read("v/enable_counter.stimulus");
+    assert_eq!(stimulus, "03\n03\n03\n02\n02\n02\n");
+    bench.refuse(
+        &[&taken[..], &["--clock", "clock"]].concat(),
+        "design.vcd: --clock: there is no clock of 1 bit; allowed: a signal of 1 bit: tb.dut.clk, \
+         tb.dut.rst, tb.dut.lap",
+    );
+}
+
 #[test]
 fn a_port_that_the_map_ignores_stays_low() {
     let bench = bench();
@@ -181,5 +214,14 @@ fn waves_that_cannot_be_taken_are_refused() {
         "design.vcd: tb.dut.bus[7:4]: is x or z in tick 4; allowed: 0 or 1 at all input ports in \
          all ticks",
     );
+    let off = "#67\n$dumpoff\nxc\nxr\nbx b\nxe\n$end\n#97\n$dumpon\n0c\n1r\nb00101111 b\nxe\n\
+               $end\n#100\n1c\n#105\n0c\n";
+    bench.write("design.vcd", DESIGN.to_owned() + off);
+    bench.refuse(
+        &command(&["--skip", "1"]),
+        "design.vcd: ticks: the dump is switched off in ticks 6 to 8; allowed: --skip and --ticks \
+         that leave them out",
+    );
     assert!(!bench.path("v").exists());
+    bench.succeed(&command(&["--skip", "1", "--ticks", "5"]));
 }

@@ -151,7 +151,7 @@ impl Report {
             };
             let _ = writeln!(
                 table,
-                "{:<22} {:>5} {:>10} {:>12} {:>5} {:>7.2} s  {ended}{}{dead_ends}",
+                "{:<22} {:>5} {:>10} {:>12} {:>5} {:>7.2} s  {ended}{dead_ends}{}",
                 row.circuit,
                 row.width(),
                 number(row.states),

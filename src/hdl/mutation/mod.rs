@@ -1,8 +1,8 @@
 //! Single faults that are put into a circuit during elaboration.
 //!
 //! The source location of its node identifies a fault, so a fault is the same at any width. It
-//! affects every instance of the circuit, as a slip in the source would, but for instances in which
-//! it is none: words of different widths cannot be exchanged. Properties see its effect but are not
+//! affects every instance of the circuit, as a slip in the source would, except for instances in
+//! which it is impossible: words of different widths cannot be exchanged. Properties see its effect but are not
 //! changed themselves.
 
 mod change;

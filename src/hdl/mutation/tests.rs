@@ -201,12 +201,12 @@ impl Circuit for Around {
 #[test]
 fn a_fault_has_no_place_where_widths_forbid_it() {
     let circuit = |a, b| Around { widths: [a, b] };
-    for (name, least, forbidden) in [
+    for (name, end, forbidden) in [
         ("around", "bits.a: crossed with the next one", [4, 5]),
         ("bits", "slice: one bit more", [2, 3]),
     ] {
         let all = mutations(name, || elaborate(&circuit(4, 4))).1;
-        let mut faults = all.iter().filter(|it| it.to_string().ends_with(least));
+        let mut faults = all.iter().filter(|it| it.to_string().ends_with(end));
         let fault = faults.next().expect("it is possible with these widths");
         assert!(mutated(fault, || elaborate(&circuit(5, 5))).is_some());
         let [a, b] = forbidden;
