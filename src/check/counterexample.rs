@@ -175,9 +175,14 @@ fn report(tick: u64, invariant: &str, message: &str, signals: &[String]) -> Stri
 }
 
 /// Returns the table of the last ticks, one signal per row. Signals at fault come first and are
-/// marked; the last column shows the registers after the edge.
+/// marked; words of memories come last. The last column shows the registers after the edge.
 fn table(model: &Elaborated, inputs: &[Vec<u64>], at_fault: &[String]) -> String {
-    let leaves = &model.declarations().leaves;
+    let declarations = model.declarations();
+    let leaves = &declarations.leaves;
+    let is_word = |leaf: usize| {
+        let mut memories = declarations.memories.iter();
+        memories.any(|memory| (memory.first..memory.first + memory.words).contains(&leaf))
+    };
     let mut engine = model.engine(Watch::All);
     let first = inputs.len().saturating_sub(TICKS);
     let mut columns = Vec::new();
@@ -205,9 +210,9 @@ fn table(model: &Elaborated, inputs: &[Vec<u64>], at_fault: &[String]) -> String
             Role::Register => text(leaf, engine.word(index)),
             Role::Input | Role::Net => String::new(),
         });
-        rows.push((!marked, row));
+        rows.push(((!marked, is_word(index)), row));
     }
-    rows.sort_by_key(|(unmarked, _)| *unmarked);
+    rows.sort_by_key(|(order, _)| *order);
     let left_out = rows.len().saturating_sub(ROWS);
     rows.truncate(ROWS);
     let rows = rows.into_iter().map(|(_, row)| row);

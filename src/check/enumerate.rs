@@ -27,6 +27,14 @@ pub enum CheckError {
     /// Invariants name signals that the circuit does not have.
     #[error("{}", lines(.0))]
     Signals(Vec<UnknownSignal>),
+    /// The assumptions allow no input at power-on, so there is nothing to search.
+    #[error(
+        "{circuit}: no input keeps all assumptions at power-on; correct the statements that `given` and `narrowing` make, `applies`, and what `inputs` and `assume` exclude"
+    )]
+    NoInput {
+        /// Name of the circuit.
+        circuit: String,
+    },
     /// The circuit cannot be run.
     #[error(transparent)]
     Engine(#[from] EngineError),

@@ -83,23 +83,32 @@ impl<C: Circuit> fmt::Display for Outcome<C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Outcome::Proof(proof) => {
-                write!(
-                    f,
-                    "proved: {} states, {} transitions, depth {}",
-                    proof.states, proof.transitions, proof.depth
-                )?;
+                let states = counted(proof.states, "state");
+                let transitions = counted(proof.transitions, "transition");
+                write!(f, "proved: {states}, {transitions}, depth {}", proof.depth)?;
                 if proof.dead_ends > 0 {
-                    write!(f, ", {} states without a possible input", proof.dead_ends)?;
+                    let states = counted(proof.dead_ends, "state");
+                    write!(f, ", {states} without a possible input")?;
                 }
                 Ok(())
             }
             Outcome::Counterexample(found) => found.fmt(f),
             Outcome::Limit(progress) => write!(
                 f,
-                "not decided: the limit was reached with {} states, at depth {}, after {} transitions",
-                progress.states, progress.depth, progress.transitions
+                "not decided: the limit was reached with {}, at depth {}, after {}",
+                counted(progress.states, "state"),
+                progress.depth,
+                counted(progress.transitions, "transition")
             ),
         }
+    }
+}
+
+/// Returns a number with its noun.
+fn counted(number: u64, noun: &str) -> String {
+    match number {
+        1 => format!("1 {noun}"),
+        _ => format!("{number} {noun}s"),
     }
 }
 
@@ -248,8 +257,8 @@ impl<'a, C: Circuit> Reach<'a, C> {
     ///
     /// # Errors
     /// Returns an error if the registers have more than 64 bits or the inputs more than 20, if the
-    /// circuit cannot be elaborated, or if an invariant names a signal that does not exist. Names
-    /// are read in the first tick.
+    /// circuit cannot be elaborated, if the assumptions allow no input at power-on, or if an
+    /// invariant names a signal that does not exist. Names are read in the first tick.
     pub fn run(self) -> Result<Outcome<C>, CheckError> {
         self.search(false)
     }
@@ -258,8 +267,8 @@ impl<'a, C: Circuit> Reach<'a, C> {
     ///
     /// # Errors
     /// Returns an error if the registers have more than 64 bits or the inputs more than 20, if the
-    /// circuit cannot be elaborated, or if an invariant names a signal that does not exist. Names
-    /// are read in the first tick.
+    /// circuit cannot be elaborated, if the assumptions allow no input at power-on, or if an
+    /// invariant names a signal that does not exist. Names are read in the first tick.
     pub fn run_simulated(self) -> Result<Outcome<C>, CheckError> {
         self.search(true)
     }
@@ -308,6 +317,10 @@ impl<'a, C: Circuit> Reach<'a, C> {
         Ok(
             match searching.run(&model, visited, (limits, progress), simulated) {
                 Ended::Unknown(signals) => return Err(CheckError::Signals(signals)),
+                Ended::NoInput => {
+                    let circuit = model.name().to_owned();
+                    return Err(CheckError::NoInput { circuit });
+                }
                 Ended::Proof(proof) => Outcome::Proof(proof),
                 Ended::Limit(progress) => Outcome::Limit(progress),
                 Ended::Fault(way, name, fault) => {

@@ -80,9 +80,13 @@ impl Searching<'_> {
         if !unknown.is_empty() {
             return Ended::Unknown(unknown);
         }
-        match &tick {
+        let ended = match &tick {
             Some(tick) => Batches::new(self, tick).search(search, &mut one),
             None => self.one_by_one(search, &mut one),
+        };
+        match ended {
+            Ended::Proof(proof) if proof.transitions == 0 => Ended::NoInput,
+            ended => ended,
         }
     }
 
@@ -187,6 +191,8 @@ pub(super) enum Ended {
     Limit(Progress),
     Fault(Vec<usize>, String, Fault),
     Unknown(Vec<UnknownSignal>),
+    /// The state at power-on has no possible input.
+    NoInput,
 }
 
 /// Evaluation of single transitions.

@@ -142,6 +142,11 @@ fn wrong(always: &[Property], steps: &[Property]) -> Vec<String> {
                 "property {name:?}: a name is one line of text and is not empty"
             ));
         }
+        if property.step && matches!(property.claim, Claim::Given | Claim::Narrowing) {
+            wrong.push(format!(
+                "assumption `{name}` is about an edge; an assumption is about the input ports of a tick"
+            ));
+        }
         if always[..index].iter().any(|other| other.name == name) {
             wrong.push(format!("two properties are called `{name}`"));
         }

@@ -1,7 +1,8 @@
 //! Circuits of the catalogue with all their widths changed at once.
 
 use super::{AnyModel, Base, Entry, Pair};
-use std::time::{Duration, Instant};
+use crate::check::{Conclusion, ThreadTime};
+use std::time::Duration;
 
 /// Returns the stages of a history whose positions have `bits` bits.
 fn stages_at(bits: u64) -> u64 {
@@ -25,20 +26,29 @@ fn usual(widths: &[(String, u64)]) -> u64 {
     most.map_or(1, |(_, width)| width.max(1))
 }
 
+/// Results for a property at narrower widths than those of a circuit.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Narrower {
+    /// Greatest widths at which it is proved.
+    pub proved: Option<Vec<(String, u64)>>,
+    /// Least widths at which it is refuted.
+    pub refuted: Option<Vec<(String, u64)>>,
+}
+
 impl Entry {
-    /// Returns the greatest widths at which a property of the full circuit, some keys changed, or of
-    /// a part of it is proved. All widths grow together from one bit up, until the property is no longer proved;
-    /// `limit` is the time for each property.
+    /// Proves a property of the full circuit, some keys changed, or of a part of it, at narrower
+    /// widths. All widths grow together from one bit up, until the property is refuted or no longer
+    /// proved; `limit` is the time of a processor for each property.
     pub fn narrower(
         &self,
         pairs: &[Pair],
         (part, property): (Option<&str>, &str),
         limit: Duration,
-    ) -> Option<Vec<(String, u64)>> {
+    ) -> Narrower {
         let full = self.widths(Base::Full, pairs);
-        let most = full.iter().map(|(_, bits)| *bits).max()?;
-        let start = Instant::now();
-        let mut proved = None;
+        let most = full.iter().map(|(_, bits)| *bits).max().unwrap_or(1);
+        let start = ThreadTime::now();
+        let mut found = Narrower::default();
         for greatest in 1..most {
             if start.elapsed() > 2 * limit {
                 break;
@@ -60,13 +70,17 @@ impl Entry {
             let mut concluded = concluded
                 .iter()
                 .filter(|it| it.property == property && it.part.as_deref() == part);
-            match concluded.any(|it| it.conclusion.is_proved()) {
-                true => proved = Some(widths),
-                false if proved.is_some() => break,
-                false => {}
+            match concluded.next().map(|it| &it.conclusion) {
+                Some(Conclusion::Proof { .. }) => found.proved = Some(widths),
+                Some(Conclusion::Refuted(_)) => {
+                    found.refuted = Some(widths);
+                    break;
+                }
+                _ if found.proved.is_some() => break,
+                _ => {}
             }
         }
-        proved
+        found
     }
 
     /// Returns three ways to make the small circuit about `bits` wide: all widths changed by the same

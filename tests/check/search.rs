@@ -34,11 +34,31 @@ fn assumptions_are_honoured() {
     assert_eq!(stuck.proof(), Some(expected));
     assert_eq!(
         stuck.to_string(),
-        "proved: 5 states, 7 transitions, depth 4, 1 states without a possible input"
+        "proved: 5 states, 7 transitions, depth 4, 1 state without a possible input"
     );
 
     let free = reach(&circuit, &low).run().unwrap();
     assert_eq!(free.counterexample().unwrap().tick, 5);
+}
+
+#[test]
+fn assumptions_without_an_input_at_power_on_prove_nothing() {
+    let circuit = Up { n: 9 };
+    let low = Invariants::new().always("at most 4", |now: &Sample<'_, Up>| {
+        require(now.q.count <= 4, ["count"], || "above".into())
+    });
+    let expected = "up: no input keeps all assumptions at power-on";
+    let refused = |outcome: Result<Outcome<Up>, CheckError>| {
+        let error = outcome.expect_err("there is no input");
+        assert!(matches!(error, CheckError::NoInput { .. }), "{error}");
+        assert!(error.to_string().starts_with(expected), "{error}");
+    };
+    let assumed = || reach(&circuit, &low).assume(|q, _| q.q.count > 0);
+    refused(assumed().run());
+    refused(assumed().run_simulated());
+    let none = || reach(&circuit, &low).inputs(|_| false);
+    refused(none().run());
+    refused(none().run_simulated());
 }
 
 #[test]

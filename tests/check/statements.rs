@@ -119,6 +119,15 @@ fn words_of_memories_are_those_before_and_after_the_edge() {
         .counterexample()
         .expect("it does not hold");
     assert_eq!(found.invariant, "a write leaves its own word");
+    // Words that are not at fault come last in the table.
+    let table = found.to_string();
+    let first = |name: &str| {
+        let mut rows = table.lines();
+        let row = rows.position(|row| row.trim_start_matches(['*', ' ']).starts_with(name));
+        row.unwrap_or_else(|| panic!("{table}"))
+    };
+    assert!(first("words") < first("address"), "{table}");
+    assert!(first("address") < first("stages"), "{table}");
     assert_eq!((found.tick, found.signals), (0, vec!["words".to_owned()]));
 }
 

@@ -47,7 +47,13 @@ fn all_widths_go_up_from_one_until_the_time_is_over() {
         widths = width;
     }
     assert!(widths > 3, "{text}");
-    Bench::new()
+    let bench = Bench::new();
+    bench
+        .command(&["check", "enable_counter", "--all-widths", "3"])
+        .assert()
+        .code(2)
+        .stderr("error: --all-widths: 3 stands for a circuit here; allowed: --all-widths=3\n");
+    bench
         .command(&["check", "integrator", "--all-widths"])
         .assert()
         .code(2)
@@ -63,7 +69,10 @@ fn a_proof_that_is_given_up_fails() {
         .command(&["check", "unit_law", "--limit", "10"])
         .assert()
         .code(2)
-        .stdout(predicate::str::contains("not decided"))
+        .stdout(
+            predicate::str::contains("not decided")
+                .and(predicate::str::contains("\n  not proved: ")),
+        )
         .stderr("error: unit_law: not decided within 10 states; allowed: a larger --limit\n");
 }
 

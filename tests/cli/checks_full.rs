@@ -39,11 +39,15 @@ fn what_is_refuted_fails_and_what_is_open_is_said() {
         "found",
     ];
     let open = "is not inductive: from count = 65534";
+    let narrow = "open; REFUTED at 2";
+    let command = "  refuted by: motion-rtl check pulse_generator --full --set variant=literal \
+                   --set width=2\n2 proved, 1 open, 3 REFUTED; ";
+    let has = predicate::str::contains;
     bench
         .command(&arguments)
         .assert()
         .code(1)
-        .stdout(predicate::str::contains("REFUTED").and(predicate::str::contains(open)))
+        .stdout(has(open).and(has(narrow)).and(has(command)))
         .stderr(predicate::str::starts_with("error: pulse_generator: tick "));
     let names: Vec<_> = std::fs::read_dir(bench.path("found"))
         .expect("it is there")
@@ -74,11 +78,13 @@ fn results_at_full_width_are_printed_as_json() {
         "asked",
         "program_version",
         "rows",
+        "seconds",
         "version",
         "without_properties",
     ];
     assert_eq!(keys(&report), expected);
     assert_eq!(report["asked"]["limit_seconds"], 10);
+    assert_eq!(report["asked"]["require_proofs"], false);
     let rows = list(&report, "rows");
     assert!(rows.len() >= 4, "{report}");
     for row in rows {
@@ -132,6 +138,50 @@ fn what_parts_assume_is_in_the_json() {
     assert!(rows.iter().all(|row| row["part"].is_null()));
     let assumed = rows.iter().filter(|row| row["full_width_by"] == "assumed");
     assert_eq!(assumed.count(), 1);
+}
+
+#[test]
+fn proofs_may_be_required() {
+    let bench = Bench::new();
+    let proved = ["check", "enable_counter", "--full", "--require-proofs"];
+    bench.succeed(&proved);
+    let open = [
+        "check",
+        "tracking_converter",
+        "--full",
+        "--limit-seconds",
+        "1",
+    ];
+    let text = bench.succeed(&open);
+    let end = "\na property without a result may need more than 1 s of a processor: \
+               --limit-seconds\n";
+    assert!(text.ends_with(end), "{text}");
+    let property = "tracking: the magnitudes of quadrature and in_phase add up to less than \
+                    2^(angle + 1) is open; allowed: a larger --limit-seconds, or no \
+                    --require-proofs";
+    bench
+        .command(&[&open[..], &["--require-proofs"]].concat())
+        .assert()
+        .code(2)
+        .stderr(predicate::str::contains(property));
+}
+
+/// The narrowest refutation has the command that shows it.
+#[test]
+fn the_command_below_an_open_property_refutes_it() {
+    let bench = Bench::new();
+    let narrow = "check pulse_generator --full --set variant=literal --set width=2";
+    let arguments: Vec<_> = narrow.split(' ').collect();
+    let is_refuted = predicate::function(|text: &str| {
+        let property = "  count never reaches its greatest value --set variant=literal";
+        let mut rows = text.lines().filter(|row| row.contains(property));
+        rows.any(|row| row.contains(" REFUTED "))
+    });
+    bench
+        .command(&arguments)
+        .assert()
+        .code(1)
+        .stdout(is_refuted);
 }
 
 #[test]

@@ -4,12 +4,12 @@ use super::clauses::{Answer, Clauses};
 use super::frames::{Cone, Frames, Start};
 use super::prover::{Basis, Grounds, Task, each};
 use super::search::Never;
+use super::thread_time::ThreadTime;
 use super::unrolled::{At, Unrolled};
 use crate::engine::sliced::NotSliced;
 use crate::engine::sliced::gates::{Gates, LOW, Wire};
 use crate::engine::sliced::state::State;
 use batsat::Lit;
-use std::time::Instant;
 
 /// Factor of the time for a property that its check may take.
 const TIMES: u32 = 4;
@@ -37,7 +37,7 @@ pub(super) fn check(
     }
     let asked = before.iter().chain(&beside).chain(&task.givens);
     let asked: Vec<_> = asked.map(|&index| task.flat.properties[index]).collect();
-    let until = Instant::now() + task.limit * TIMES;
+    let until = ThreadTime::now() + task.limit * TIMES;
     before.extend(&task.givens);
     let answer = |memory_bits: usize| {
         let check = Check {
@@ -77,7 +77,7 @@ struct Check<'t, 'f> {
     property: usize,
     /// Properties that hold in every tick.
     before: &'t [usize],
-    until: Instant,
+    until: ThreadTime,
 }
 
 impl Check<'_, '_> {

@@ -1,16 +1,39 @@
 //! Gates as clauses of a solver, made when a question needs them.
 
+use super::thread_time::ThreadTime;
 use crate::engine::sliced::gates::{Gate, Gates, Wire};
 use batsat::{Callbacks, Lit, Solver, SolverInterface, lbool};
-use std::time::Instant;
+use std::cell::Cell;
+
+/// Number of questions of the solver for each look at the time, which is a call of the system.
+const QUESTIONS: u32 = 32;
 
 /// Ends a search of the solver at a moment.
 #[derive(Debug)]
-struct Until(Instant);
+struct Until {
+    time: ThreadTime,
+    /// Questions whether to stop.
+    asked: Cell<u32>,
+    is_over: Cell<bool>,
+}
+
+impl Until {
+    fn new(time: ThreadTime) -> Self {
+        Until {
+            time,
+            asked: Cell::new(0),
+            is_over: Cell::new(false),
+        }
+    }
+}
 
 impl Callbacks for Until {
     fn stop(&self) -> bool {
-        Instant::now() >= self.0
+        if self.asked.get().is_multiple_of(QUESTIONS) {
+            self.is_over.set(ThreadTime::now() >= self.time);
+        }
+        self.asked.set(self.asked.get().wrapping_add(1));
+        self.is_over.get()
     }
 }
 
@@ -35,7 +58,7 @@ pub(super) struct Clauses {
 impl Clauses {
     pub fn new() -> Self {
         Clauses {
-            solver: Solver::new(Default::default(), Until(Instant::now())),
+            solver: Solver::new(Default::default(), Until::new(ThreadTime::now())),
             lits: Vec::new(),
         }
     }
@@ -122,8 +145,8 @@ impl Clauses {
     }
 
     /// Searches for an assignment in which these literals are high.
-    pub fn solve(&mut self, assumed: &[Lit], until: Instant) -> Answer {
-        self.solver.cb_mut().0 = until;
+    pub fn solve(&mut self, assumed: &[Lit], until: ThreadTime) -> Answer {
+        *self.solver.cb_mut() = Until::new(until);
         let answer = self.solver.solve_limited(assumed);
         if answer == lbool::TRUE {
             Answer::Possible
@@ -153,8 +176,8 @@ mod tests {
     use crate::engine::sliced::gates::HIGH;
     use std::time::Duration;
 
-    fn soon() -> Instant {
-        Instant::now() + Duration::from_secs(10)
+    fn soon() -> ThreadTime {
+        ThreadTime::now() + Duration::from_secs(10)
     }
 
     #[test]
@@ -219,7 +242,7 @@ mod tests {
         let prime = gates.is(&product, 140_737_488_355_213);
         let mut clauses = Clauses::new();
         let prime = clauses.lit(&gates, prime);
-        let until = Instant::now() + Duration::from_millis(20);
+        let until = ThreadTime::now() + Duration::from_millis(20);
         assert_eq!(clauses.solve(&[prime], until), Answer::Unknown);
         assert!(until.elapsed() < Duration::from_secs(1));
     }

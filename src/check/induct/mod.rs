@@ -34,10 +34,12 @@ mod prover;
 mod search;
 #[cfg(test)]
 mod tests;
+mod thread_time;
 mod unrolled;
 
 pub use conclusion::{By, Concluded, Conclusion, InductError};
 pub use not_inductive::{Clause, NotInductive};
+pub(crate) use thread_time::ThreadTime;
 
 use super::blamed;
 use super::counterexample::Violation;
@@ -51,7 +53,7 @@ use prover::{Basis, Found, Results, Task};
 use std::fmt;
 use std::time::Duration;
 
-/// Time for a property by default.
+/// Time of a processor for a property by default.
 const LIMIT: Duration = Duration::from_secs(10);
 /// Greatest time for a property: ten years.
 const LONGEST: Duration = Duration::from_secs(10 * 365 * 86_400);
@@ -112,8 +114,8 @@ pub fn induct<C: Circuit>(circuit: &C) -> Induct<'_, C> {
 }
 
 impl<C: Circuit> Induct<'_, C> {
-    /// Limits the time for each property; 10 seconds by default. A check of its proof may take
-    /// four times as long. The time to unroll the circuit is not limited.
+    /// Limits the time of a processor for each property; 10 seconds by default. A check of its proof
+    /// may take four times as long. The time to unroll the circuit is not limited.
     pub fn limit(mut self, limit: Duration) -> Self {
         self.limit = limit.min(LONGEST);
         self

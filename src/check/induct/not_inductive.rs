@@ -3,6 +3,7 @@
 use super::clauses::Answer;
 use super::frames::Frames;
 use super::search::Never;
+use super::thread_time::ThreadTime;
 use super::unrolled::{At, Unrolled, number};
 use crate::check::blamed::below;
 use crate::check::counterexample::save;
@@ -14,7 +15,6 @@ use crate::trace::{self, Clock};
 use batsat::Lit;
 use std::fmt;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 /// Greatest number of clauses that are shown.
 const SHOWN: usize = 5;
@@ -38,7 +38,7 @@ pub(super) fn find(
     unrolled: &mut Unrolled<'_>,
     violated: At,
     held: &[At],
-    until: Instant,
+    until: ThreadTime,
 ) -> Result<Option<Found>, NotSliced> {
     if unrolled.violate(violated, held, until)? != Answer::Possible {
         return Ok(None);

@@ -3,11 +3,11 @@
 use super::clauses::{Answer, Clauses};
 use super::conjuncts::conjuncts;
 use super::frames::{Cone, Frames, Start};
+use super::thread_time::ThreadTime;
 use crate::engine::Flat;
 use crate::engine::sliced::NotSliced;
 use crate::engine::sliced::gates::Wire;
 use batsat::Lit;
-use std::time::Instant;
 
 /// Property in a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,7 +45,7 @@ impl<'f> Unrolled<'f> {
         &mut self,
         violated: At,
         held: &[At],
-        until: Instant,
+        until: ThreadTime,
     ) -> Result<Answer, NotSliced> {
         let mut assumed = Vec::new();
         for &at in held {

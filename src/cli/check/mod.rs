@@ -44,9 +44,12 @@ pub struct Arguments {
     /// Proves each property at the circuit's own widths, by induction and a search for invariants.
     #[arg(long, conflicts_with_all = ["limit", "shard"])]
     full: bool,
-    /// Seconds for each property at full width.
+    /// Seconds of a processor for each property at full width.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, requires = "full", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     limit_seconds: u64,
+    /// Fails if a property at full width is neither proved nor refuted: exit code 2.
+    #[arg(long, requires = "full")]
+    require_proofs: bool,
     /// Directory for the waves of a counterexample.
     #[arg(long, value_name = "DIR", default_value = "waves")]
     out: PathBuf,
@@ -73,13 +76,20 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
             circuits: arguments.circuits.clone(),
             changes: arguments.changes.clone(),
             limit_seconds: arguments.limit_seconds,
+            require_proofs: arguments.require_proofs,
         };
-        let report = full::run(asked, &arguments.out)?;
-        match arguments.json {
-            true => json::print_alone(&report)?,
-            false => print(&report.table())?,
-        }
-        return report.faults();
+        return full::run(asked, &arguments.out, arguments.json)?.faults();
+    }
+    let numbers = arguments
+        .circuits
+        .iter()
+        .find(|name| climb::seconds(name).is_ok());
+    if let (Some(number), Some(_)) = (numbers, arguments.all_widths) {
+        return Err(Failure::Argument {
+            field: "--all-widths",
+            problem: format!("{number} stands for a circuit here"),
+            allowed: format!("--all-widths={number}"),
+        });
     }
     let report = if arguments.merge.is_empty() {
         let asked = Asked {

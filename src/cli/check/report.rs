@@ -160,8 +160,12 @@ impl Report {
                 row.seconds,
                 self.asked.changes
             );
+            let not = match row.ended {
+                Ended::Holds => "",
+                Ended::Broken | Ended::NotDecided | Ended::TooWide => "not proved: ",
+            };
             for invariant in &row.invariants {
-                let _ = writeln!(table, "  {invariant}");
+                let _ = writeln!(table, "  {not}{invariant}");
             }
         }
         let is_named = |row: &Row| self.asked.circuits.contains(&row.circuit);

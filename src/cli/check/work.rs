@@ -6,7 +6,7 @@ use super::tasks::{self, Task};
 use crate::cli::written::Written;
 use crate::cli::{Failure, threads};
 use indicatif::{HumanCount, MultiProgress, ProgressBar, ProgressStyle};
-use motion_rtl::check::Proof;
+use motion_rtl::check::{CheckError, Proof};
 use motion_rtl::registry::{AnyCircuit, AnySweep, Base, ProofSearch, Verdict};
 use motion_rtl::sim::RunError;
 use rayon::prelude::*;
@@ -160,6 +160,7 @@ fn prove(
         line.tick();
     });
     Ok(match verdict {
+        Err(error @ CheckError::NoInput { .. }) => return Err(Failure::Check(error.to_string())),
         Err(error) => Row {
             ended: Ended::TooWide,
             fault: Some(format!("{name}: {error}; allowed: smaller widths")),

@@ -51,31 +51,49 @@ pub fn table<'e>(entries: impl Iterator<Item = &'e Entry>, stands: &str) -> Stri
     head.to_owned() + &rows.concat()
 }
 
-/// The rows of a circuit: properties, then assumptions.
+/// Name of the row for the assumptions of the parts of a circuit.
+const PARTS: &str = "what its parts assume";
+
+/// The rows of a circuit: properties, what its parts assume, assumptions.
 fn rows(entry: &Entry, stands: &str) -> Vec<String> {
     let full = entry.full();
     let model = full.model().expect("it can be elaborated");
-    let module = model.design().modules.last().expect("there is one");
-    let stated = &module.assertions;
+    let (module, parts) = (model.design().modules.split_last()).expect("there is one");
     let begin = |name: &str| format!("| `{}` | {} | ", entry.name, cell(name));
     let named = |of: fn(Claim) -> bool| {
-        let all = stated.iter().filter(move |one| of(one.claim));
+        let all = module.assertions.iter().filter(move |one| of(one.claim));
         all.map(|one| one.name)
     };
-    let proved: Vec<_> = named(Claim::is_proved).collect();
+    let mut wanted: Vec<_> = named(Claim::is_proved).collect();
+    let is_slow = SLOW.contains(&entry.name) || wanted.is_empty();
+    let mut of_parts = parts.iter().flat_map(|part| &part.assertions);
+    wanted.extend(
+        of_parts
+            .any(|one| one.claim == Claim::Given)
+            .then_some(PARTS),
+    );
     let mut rows = Vec::new();
-    if !proved.is_empty() {
-        let known = |name: &&str| stands.lines().find(|row| row.starts_with(&begin(name)));
-        let known: Option<Vec<_>> = proved.iter().map(known).collect();
-        match known.filter(|_| SLOW.contains(&entry.name)) {
-            Some(known) => rows.extend(known.into_iter().map(|row| format!("{row}\n"))),
-            None => {
-                let mut concluded = full.induct(LIMIT).expect("it has properties");
-                concluded.retain(|one| one.part.is_none());
-                concluded.retain(|one| !matches!(one.conclusion, Conclusion::Assumed));
-                let row =
-                    |one: &Concluded<_>| format!("{}{} |\n", begin(&one.property), by(entry, one));
-                rows.extend(concluded.iter().map(row));
+    let known = |name: &&str| stands.lines().find(|row| row.starts_with(&begin(name)));
+    let known: Option<Vec<_>> = wanted.iter().map(known).collect();
+    match known.filter(|_| is_slow) {
+        Some(known) => rows.extend(known.into_iter().map(|row| format!("{row}\n"))),
+        None if wanted.is_empty() => {}
+        None => {
+            let mut concluded = full.induct(LIMIT).expect("it has properties");
+            concluded.retain(|one| !matches!(one.conclusion, Conclusion::Assumed));
+            let (parts, own): (Vec<_>, Vec<_>) =
+                concluded.into_iter().partition(|one| one.part.is_some());
+            let row =
+                |one: &Concluded<_>| format!("{}{} |\n", begin(&one.property), by(entry, one));
+            rows.extend(own.iter().map(row));
+            if !parts.is_empty() {
+                let all = parts.iter().map(|one| by(entry, one));
+                let open = all.filter(|by| by == "open").count();
+                let by = match open {
+                    0 => format!("{} proved", parts.len()),
+                    open => format!("{} proved, {open} open", parts.len() - open),
+                };
+                rows.push(format!("{}{by} |\n", begin(PARTS)));
             }
         }
     }

@@ -8,15 +8,19 @@ use super::clauses::Answer;
 use super::frames::{Cone, Start};
 use super::not_inductive;
 use super::search::{Never, Searched, search};
+use super::thread_time::ThreadTime;
 use super::unrolled::{At, Unrolled};
 use crate::engine::Flat;
 use crate::engine::sliced::NotSliced;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Greatest number of ticks that an induction assumes.
 const INDUCTION: usize = 4;
 /// Number of ticks from power-on in which a violation is looked for before the search.
 const TICKS: usize = 12;
+
+/// Share of the time for a property in which contradictions of the givens are looked for.
+const DEAD: u32 = 10;
 
 /// Basis of a proof.
 #[derive(Debug, Clone)]
@@ -146,7 +150,8 @@ impl<'t, 'f> Prover<'t, 'f> {
 
     /// Returns the first tick of an induction's start in which no input keeps the givens.
     fn dead(&mut self) -> Result<Option<usize>, NotSliced> {
-        let until = Instant::now() + self.task.limit;
+        // Where inputs are hard to find, they rarely contradict each other.
+        let until = ThreadTime::now() + self.task.limit / DEAD;
         let mut held = Vec::new();
         if self.task.givens.is_empty() {
             return Ok(None);
@@ -196,7 +201,7 @@ impl<'t, 'f> Prover<'t, 'f> {
         let lemmas = [&self.lemmas()[..], &self.task.givens].concat();
         let mut held = each(&lemmas, 0..=1);
         held.push(At { property, tick: 0 });
-        let until = Instant::now() + self.task.limit / 4;
+        let until = ThreadTime::now() + self.task.limit / 4;
         not_inductive::find(&mut self.step, At { property, tick: 1 }, &held, until)
     }
 
@@ -227,8 +232,8 @@ impl<'t, 'f> Prover<'t, 'f> {
     }
 
     /// Returns the time at which the work on a property has to end.
-    fn until(&self, property: usize) -> Instant {
-        Instant::now()
+    fn until(&self, property: usize) -> ThreadTime {
+        ThreadTime::now()
             + self
                 .task
                 .limit(property)
@@ -244,7 +249,7 @@ impl<'t, 'f> Prover<'t, 'f> {
         held: &[At],
     ) -> Result<Answer, NotSliced> {
         let until = self.until(property);
-        let start = Instant::now();
+        let start = ThreadTime::now();
         let mut held = held.to_vec();
         held.extend(each(&self.task.givens, 0..=tick));
         let unrolled = match from {
@@ -312,8 +317,8 @@ impl<'t, 'f> Prover<'t, 'f> {
     fn search(&mut self, property: usize, share: u32) -> Result<(), NotSliced> {
         let lemmas = self.lemmas();
         let known = [&lemmas[..], &self.task.givens].concat();
-        let start = Instant::now();
-        let until = start + (self.until(property) - start) / share;
+        let start = ThreadTime::now();
+        let until = start + self.until(property).left() / share;
         let searched = search(self.task.flat, self.cone, property, &known, until)?;
         self.spent[property] += start.elapsed();
         match searched {
@@ -359,7 +364,10 @@ impl<'t, 'f> Prover<'t, 'f> {
             if all[property].is_none() {
                 continue;
             }
-            match certify::check(self.task, &all, property) {
+            let start = ThreadTime::now();
+            let checked = certify::check(self.task, &all, property);
+            self.spent[property] += start.elapsed();
+            match checked {
                 Ok(Answer::Impossible) => {}
                 Ok(Answer::Possible) => refused.push(property),
                 Ok(Answer::Unknown) | Err(NotSliced) => late.push(property),

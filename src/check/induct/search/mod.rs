@@ -9,6 +9,7 @@ mod levels;
 
 use super::clauses::{Answer, Clauses};
 use super::frames::{Cone, Frames, Start};
+use super::thread_time::ThreadTime;
 use super::unrolled::number;
 use crate::engine::sliced::NotSliced;
 use crate::engine::sliced::gates::{HIGH, Wire};
@@ -17,7 +18,6 @@ use batsat::Lit;
 use levels::Level;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use std::time::Instant;
 
 /// Bit of the state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,7 +82,7 @@ struct Search<'f> {
     /// Solver without any clause that is known of reachable states.
     lifting: Clauses,
     levels: Vec<Level>,
-    until: Instant,
+    until: ThreadTime,
 }
 
 /// Searches for an invariant or a trace of a property; `known` hold in every tick.
@@ -94,7 +94,7 @@ pub(super) fn search(
     cone: &Cone,
     property: usize,
     known: &[usize],
-    until: Instant,
+    until: ThreadTime,
 ) -> Result<Searched, NotSliced> {
     let mut search = Search::new(flat, cone, property, known, until)?;
     match search.run() {
@@ -115,7 +115,7 @@ impl<'f> Search<'f> {
         cone: &'f Cone,
         property: usize,
         known: &[usize],
-        until: Instant,
+        until: ThreadTime,
     ) -> Result<Self, NotSliced> {
         let mut frames = Frames::new(flat, cone, Start::Any);
         let next = Frames::bits(frames.state(1)?);

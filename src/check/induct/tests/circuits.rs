@@ -375,6 +375,14 @@ fn properties_with_mistakes_are_refused() {
             Property::helper("it goes", &["going"], q.going),
             Property::always("two\nlines", &[], q.going),
             Property::always(" ", &[], q.going),
+            Property {
+                step: true,
+                ..Property::given("no edge", q.going)
+            },
+            Property {
+                step: true,
+                ..Property::narrowing("one edge", q.going)
+            },
         ]
     };
     let wrong = crate::hdl::elaborate(&Counter { stated }).expect_err("it has mistakes");
@@ -385,6 +393,8 @@ fn properties_with_mistakes_are_refused() {
         "two properties are called `it goes`",
         "property \"two\\nlines\": a name is one line of text and is not empty",
         "property \" \": a name is one line of text and is not empty",
+        "assumption `no edge` is about an edge; an assumption is about the input ports of a tick",
+        "assumption `one edge` is about an edge; an assumption is about the input ports of a tick",
     ];
     assert_eq!(wrong, expected);
 }

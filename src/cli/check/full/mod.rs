@@ -1,0 +1,204 @@
+//! `check --full`: each property at the circuit's own widths.
+
+mod report;
+
+use crate::cli::chosen::{self, entries};
+use crate::cli::written::Written;
+use crate::cli::{Failure, json, print, threads};
+use motion_rtl::check::{Conclusion, InductError, NotInductive, Violation};
+use motion_rtl::registry::{AnyModel, Base, Entry, Pair};
+use motion_rtl::sim::RunError;
+use motion_rtl::trace::Clock;
+use rayon::prelude::*;
+use report::FullRow;
+pub use report::{Asked, FullReport};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Proves the properties of the asked circuits. Unless the report is asked for as JSON, the rows of
+/// a circuit are printed as soon as those of the circuits before it are.
+pub fn run(asked: Asked, out: &Path, as_json: bool) -> Result<FullReport, Failure> {
+    if asked.circuits.is_empty() && !asked.changes.is_empty() {
+        return Err(chosen::no_circuit(&asked.changes, "check"));
+    }
+    let mut tasks = Vec::new();
+    for entry in entries(&asked.circuits)? {
+        let pairs = asked.changes.pairs(entry)?;
+        let circuit = entry.made(Base::Full, &pairs);
+        let circuit = circuit.map_err(|error| chosen::refused(entry, error))?;
+        tasks.push(Task {
+            entry,
+            pairs,
+            circuit,
+        });
+    }
+    threads::start()?;
+    let start = Instant::now();
+    let work = Work {
+        out,
+        // Before the first counterexample: files that are there are not of this command.
+        list: Written::read(out),
+        limit: Duration::from_secs(asked.limit_seconds),
+    };
+    let printed = Mutex::new(InOrder::default());
+    if !as_json {
+        print(&report::heading())?;
+    }
+    // A bridge hands the tasks out in their order.
+    let all = tasks.iter().enumerate().par_bridge().map(|(index, task)| {
+        let rows = work.rows(task)?;
+        if !as_json {
+            let rows = rows.iter().flatten();
+            let text = rows.map(|row| row.text(&asked.changes)).collect();
+            // A thread that panicked ends the program.
+            let mut printed = printed.lock().unwrap_or_else(PoisonError::into_inner);
+            print(&printed.add(index, text))?;
+        }
+        Ok((index, rows))
+    });
+    let mut all = all.collect::<Result<Vec<_>, Failure>>()?;
+    all.sort_by_key(|(index, _)| *index);
+    let (mut rows, mut without) = (Vec::new(), Vec::new());
+    for (task, (_, of)) in tasks.iter().zip(all) {
+        match of {
+            Some(of) => rows.extend(of),
+            None => without.push(task.entry.name.to_owned()),
+        }
+    }
+    if rows.is_empty() && !asked.circuits.is_empty() {
+        return Err(Failure::Argument {
+            field: "CIRCUIT",
+            problem: format!(
+                "{} has no properties in words of the circuit",
+                without.join(", ")
+            ),
+            allowed: "a circuit that `motion-rtl check --full` lists".to_owned(),
+        });
+    }
+    let report = FullReport {
+        version: json::VERSION,
+        program_version: env!("CARGO_PKG_VERSION").to_owned(),
+        asked,
+        rows,
+        without_properties: without,
+        seconds: start.elapsed().as_secs_f64(),
+    };
+    match as_json {
+        true => json::print_alone(&report)?,
+        false => print(&report.ending())?,
+    }
+    Ok(report)
+}
+
+/// Circuit whose properties are proved.
+struct Task {
+    entry: &'static Entry,
+    pairs: Vec<Pair>,
+    circuit: Box<dyn AnyModel>,
+}
+
+/// What is asked of each circuit.
+struct Work<'a> {
+    out: &'a Path,
+    list: Written,
+    limit: Duration,
+}
+
+impl Work<'_> {
+    /// Returns the rows of a circuit; `None` if there is nothing to prove.
+    fn rows(&self, task: &Task) -> Result<Option<Vec<FullRow>>, Failure> {
+        let widths = task.entry.widths(Base::Full, &task.pairs);
+        let widths: BTreeMap<_, _> = widths.into_iter().collect();
+        let concluded = match task.circuit.induct(self.limit) {
+            Ok(concluded) => concluded,
+            Err(InductError::NoProperties { .. }) => return Ok(None),
+            Err(error) => return Err(Failure::Check(error.to_string())),
+        };
+        let rows = concluded.into_iter().map(|concluded| {
+            let mut row = FullRow::new(task.entry.name, &widths, &concluded);
+            match concluded.conclusion {
+                Conclusion::Refuted(found) => {
+                    let waves = save(&found, &*task.circuit, self.out);
+                    row.report = Some(self.with_waves(&found.to_string(), waves));
+                }
+                Conclusion::Open { from: Some(from) } => {
+                    let waves = save_induction(&from, &*task.circuit, self.out);
+                    row.report = Some(self.with_waves(&from.to_string(), waves));
+                }
+                _ => {}
+            }
+            if row.full_width_by.is_undecided() {
+                let of = (row.part.as_deref(), &row.property[..]);
+                let narrower = task.entry.narrower(&task.pairs, of, self.limit);
+                let widths = |of: Option<Vec<(String, u64)>>| Some(of?.into_iter().collect());
+                row.proved_at = widths(narrower.proved);
+                row.refuted_at = widths(narrower.refuted);
+            }
+            row
+        });
+        Ok(Some(rows.collect()))
+    }
+
+    /// Returns a report with the paths of its waves. It counts even if they cannot be written.
+    fn with_waves(&self, report: &str, waves: Result<Vec<PathBuf>, RunError>) -> String {
+        let waves = match waves {
+            Ok(paths) => {
+                self.list.add(paths.iter().map(PathBuf::as_path));
+                let paths = paths.iter().map(|path| path.display().to_string());
+                paths.collect::<Vec<_>>().join(", ")
+            }
+            Err(error) => format!("none: {error}; allowed: another --out, a directory"),
+        };
+        format!("{}\nwaves: {waves}", report.trim_end())
+    }
+}
+
+/// Texts that are printed in the order of their numbers.
+#[derive(Debug, Default)]
+struct InOrder {
+    /// Number of the next text.
+    next: usize,
+    waiting: BTreeMap<usize, String>,
+}
+
+impl InOrder {
+    /// Adds a text; returns what can be printed now.
+    fn add(&mut self, index: usize, text: String) -> String {
+        self.waiting.insert(index, text);
+        let mut ready = String::new();
+        while let Some(text) = self.waiting.remove(&self.next) {
+            ready += &text;
+            self.next += 1;
+        }
+        ready
+    }
+}
+
+fn save(found: &Violation, circuit: &dyn AnyModel, out: &Path) -> Result<Vec<PathBuf>, RunError> {
+    found.save(&circuit.model()?, Clock::default(), out)
+}
+
+fn save_induction(
+    from: &NotInductive,
+    circuit: &dyn AnyModel,
+    out: &Path,
+) -> Result<Vec<PathBuf>, RunError> {
+    from.save(&circuit.model()?, Clock::default(), out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_wait_for_those_before_them() {
+        let mut order = InOrder::default();
+        let mut add = |index, text: &str| order.add(index, text.to_owned());
+        assert_eq!(add(2, "c"), "");
+        assert_eq!(add(0, "a"), "a");
+        assert_eq!(add(1, "b"), "bc");
+        assert_eq!(add(3, "d"), "d");
+    }
+}
