@@ -47,7 +47,7 @@ fn assumptions_without_an_input_at_power_on_prove_nothing() {
     let low = Invariants::new().always("at most 4", |now: &Sample<'_, Up>| {
         require(now.q.count <= 4, ["count"], || "above".into())
     });
-    let expected = "up: no input keeps all assumptions at power-on";
+    let expected = "modulo: no input keeps all assumptions at power-on";
     let refused = |outcome: Result<Outcome<Up>, CheckError>| {
         let error = outcome.expect_err("there is no input");
         assert!(matches!(error, CheckError::NoInput { .. }), "{error}");
