@@ -1,4 +1,15 @@
-//! Errors of words that do not fit input ports.
+//! Changes of input ports, and errors of words that do not fit them.
+
+/// Change of an input port.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct InputChange {
+    /// First tick with the value.
+    pub tick: u64,
+    /// Number of the port, from 0 in declaration order.
+    pub port: usize,
+    /// Value as a word.
+    pub word: u64,
+}
 
 /// Reason why an input port cannot be set.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
@@ -33,6 +44,18 @@ pub enum InputError {
         least: i128,
         /// Greatest allowed value.
         greatest: i128,
+    },
+    /// A table of changes is not in the order of its ticks.
+    #[error("a change stands behind one of tick {before}; changes must be sorted by tick")]
+    Order {
+        /// Tick of the change before.
+        before: u64,
+    },
+    /// A table of changes has two for one port in one tick.
+    #[error("port in {port} changes twice; one change of a port is allowed in a tick")]
+    Twice {
+        /// Name of the port below the circuit.
+        port: String,
     },
 }
 

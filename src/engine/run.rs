@@ -4,6 +4,7 @@ use super::interpreter::{self, Counts};
 use super::layout::Spot;
 use super::prediction::Prediction;
 use super::program::Program;
+use super::replay::Replay;
 use super::tier::Tier;
 use super::value;
 use std::cell::RefCell;
@@ -261,6 +262,19 @@ impl Engine {
             prediction.jump(&self.program.plan, &mut self.slab, ticks);
         }
         ticks
+    }
+
+    /// Runs a replay until its backend returns.
+    pub(super) fn run(&mut self, replay: &mut Replay<'_>) {
+        *self.whole.get_mut() = None;
+        let start = replay.tick;
+        self.tier.replay(&self.program.plan, &mut self.slab, replay);
+        self.pause.left = self.pause.left.saturating_sub(replay.tick - start);
+    }
+
+    /// Returns the tick of the next search for idle ticks, from `tick` on.
+    pub(crate) fn search_after(&self, tick: u64) -> u64 {
+        tick.saturating_add(self.pause.left)
     }
 
     /// Returns the number of ticks until the next search for idle ticks.

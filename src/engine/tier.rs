@@ -5,6 +5,7 @@
 use super::compiler::Code;
 use super::interpreter::{self, Counts};
 use super::plan::Plan;
+use super::replay::Replay;
 use std::sync::{Arc, OnceLock};
 
 /// Average number of times each step is interpreted before compiling: the cost of compiling a step
@@ -124,6 +125,27 @@ impl Tier {
             }
             #[cfg(feature = "jit")]
             Backend::Code(code) => code.advance(slab, ticks),
+        }
+    }
+
+    /// Goes on with a replay until it is where it is to stop, or its rows are full.
+    pub fn replay(&mut self, plan: &Plan, slab: &mut [u64], replay: &mut Replay<'_>) {
+        while !replay.is_there() && !replay.is_full() {
+            match &self.backend {
+                Backend::Interpreter if replay.settled => {
+                    self.edge(plan, slab);
+                    replay.tick += 1;
+                    replay.settled = false;
+                }
+                Backend::Interpreter => {
+                    replay.drive(&plan.layout, slab);
+                    self.settle(plan, slab);
+                    replay.settled = true;
+                    replay.show(&plan.layout, slab);
+                }
+                #[cfg(feature = "jit")]
+                Backend::Code(code) => return code.replay(slab, replay),
+            }
         }
     }
 

@@ -14,6 +14,7 @@ mod recorded;
 pub(crate) mod sample;
 mod simulator;
 
+pub use crate::engine::{InputChange, ReplayTick};
 pub use beside::{Beside, Without};
 pub use cost::Cost;
 pub use elaborated::{Described, Elaborated};
@@ -21,7 +22,7 @@ pub(crate) use model::Tap;
 pub use model::{Handle, Model, ModelError, PortDirection, SignalInfo, SignalRef, Snapshot};
 pub(crate) use observe::at_fault;
 pub use observe::{Each, Needs, Observer, RunError, StopWhen};
-pub use recorded::{InputChange, InputRecorder, Playback, RecordedInputs};
+pub use recorded::{InputRecorder, Playback, RecordedInputs};
 pub(crate) use sample::View as LeafView;
 pub use sample::{Lazy, Sample, State};
 pub use simulator::{Simulator, Watcher};

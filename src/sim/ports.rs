@@ -1,7 +1,7 @@
 //! Input ports of a circuit and their ranges.
 
 use super::elaborated::Declare;
-use crate::engine::InputError;
+use crate::engine::{InputChange, InputError};
 use crate::netlist::{Design, Kind, Shape};
 use std::fmt;
 
@@ -125,6 +125,24 @@ impl Ports {
         }
         let mut words = words.iter().enumerate();
         words.try_for_each(|(port, word)| self.check_word(port, *word))
+    }
+
+    /// Checks a table of changes; returns the tick of the first one that is refused.
+    pub fn check_changes(&self, changes: &[InputChange]) -> Result<(), (u64, InputError)> {
+        let mut last: Vec<Option<u64>> = vec![None; self.count()];
+        let mut before = 0;
+        for &InputChange { tick, port, word } in changes {
+            if tick < before {
+                return Err((tick, InputError::Order { before }));
+            }
+            before = tick;
+            self.check_word(port, word).map_err(|error| (tick, error))?;
+            if last[port].replace(tick) == Some(tick) {
+                let port = self.name(port);
+                return Err((tick, InputError::Twice { port }));
+            }
+        }
+        Ok(())
     }
 
     #[cold]

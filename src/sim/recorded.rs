@@ -1,19 +1,9 @@
 //! Inputs of a run, recorded once and played again.
 
 use super::{Observer, RunError, Sample, Simulator};
+use crate::engine::InputChange;
 use crate::hdl::{Circuit, Declarations};
 use std::ops::ControlFlow;
-
-/// Change of an input port.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct InputChange {
-    /// First tick with the value.
-    pub tick: u64,
-    /// Number of the port, from 0 in declaration order.
-    pub port: usize,
-    /// Value as a word.
-    pub word: u64,
-}
 
 /// Changes of all input ports during a run; at power-on they are low.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

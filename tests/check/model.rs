@@ -3,6 +3,7 @@
 
 mod names;
 mod refusals;
+mod replays;
 
 use motion_rtl::Model;
 use motion_rtl::check::Stimulus;

@@ -99,6 +99,13 @@ impl<'f> Emitter<'f> {
         (block, word)
     }
 
+    /// Creates a block with two words as parameters.
+    pub fn block_with_two(&mut self) -> (Block, Value, Value) {
+        let (block, first) = self.block_with();
+        let second = self.cursor.func.dfg.append_block_param(block, types::I64);
+        (block, first, second)
+    }
+
     /// Continues in a block.
     pub fn begin(&mut self, block: Block) {
         self.cursor.func.layout.append_block(block);
@@ -111,6 +118,11 @@ impl<'f> Emitter<'f> {
 
     pub fn jump_with(&mut self, to: Block, word: Value) {
         self.ins().jump(to, &[BlockArg::Value(word)]);
+    }
+
+    pub fn jump_with_two(&mut self, to: Block, first: Value, second: Value) {
+        let words = [BlockArg::Value(first), BlockArg::Value(second)];
+        self.ins().jump(to, &words);
     }
 
     pub fn branch(&mut self, choose: Value, then: Block, other: Block) {
@@ -174,10 +186,32 @@ impl<'f> Emitter<'f> {
             .store(MemFlagsData::trusted(), word, place, offset);
     }
 
-    fn place(&mut self, index: Value) -> Value {
-        let base = self.base;
+    /// Loads a word outside of the slab.
+    pub fn load_at(&mut self, place: Value, offset: usize) -> Value {
+        let flags = MemFlagsData::trusted();
+        self.ins().load(types::I64, flags, place, offset as i32)
+    }
+
+    /// Stores a word outside of the slab.
+    pub fn store_at(&mut self, place: Value, offset: usize, word: Value) {
+        let flags = MemFlagsData::trusted();
+        self.ins().store(flags, word, place, offset as i32);
+    }
+
+    /// Returns the place of a word of an array.
+    pub fn place_of(&mut self, base: Value, index: Value) -> Value {
         let bytes = self.ins().ishl_imm_u(index, 3);
         self.ins().iadd(base, bytes)
+    }
+
+    fn place(&mut self, index: Value) -> Value {
+        self.place_of(self.base, index)
+    }
+
+    /// Loads a word of the slab by a slot that is known to be in it.
+    pub fn load_slot(&mut self, slot: Value) -> Value {
+        let place = self.place(slot);
+        self.load_at(place, 0)
     }
 
     /// Limits an index to values below `words`, which must be at least 1.

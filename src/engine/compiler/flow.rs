@@ -3,7 +3,7 @@
 
 use super::emit::Emitter;
 use super::runs::{is_hot, runs};
-use super::{CompileError, block};
+use super::{ARRIVE, CompileError, EDGE, PHASES, SETTLE, block};
 use crate::engine::layout::Slot;
 use crate::engine::plan::Plan;
 use cranelift_codegen::ir::{Block, Function, InstBuilder, Value};
@@ -25,7 +25,12 @@ pub(super) fn emit(
         }
     }
     let (emitter, parameters) = Emitter::new(func, &plan.layout, cold, part_size);
-    let mut flow = Flow { emitter, plan, hot };
+    let mut flow = Flow {
+        emitter,
+        plan,
+        hot,
+        tables: parameters[3],
+    };
     flow.function(parameters[1], parameters[2]);
     match flow.emitter.outside {
         true => Err(CompileError::Plan),
@@ -64,31 +69,48 @@ fn whole(plan: &Plan) -> Result<(), CompileError> {
     }
 }
 
-struct Flow<'f> {
-    emitter: Emitter<'f>,
-    plan: &'f Plan,
+pub(super) struct Flow<'f> {
+    pub emitter: Emitter<'f>,
+    pub plan: &'f Plan,
     hot: &'f [bool],
+    /// Address of the [`Tables`] of a replay, or 0.
+    pub tables: Value,
 }
 
 impl Flow<'_> {
     fn function(&mut self, phase: Value, ticks: Value) {
+        let tables = self.tables;
         let (settle, settles) = self.emitter.block_with();
         let (edge, edges) = self.emitter.block_with();
-        let (exit, left) = self.emitter.block_with();
-        let first = self.emitter.block();
-        let enter = self.emitter.block();
-        self.emitter.branch(phase, enter, first);
-        self.emitter.begin(first);
-        let one = self.emitter.number(1);
-        self.emitter.jump_with(settle, one);
-        self.emitter.begin(enter);
-        self.emitter.jump_with(edge, ticks);
+        let (on, left) = self.emitter.block_with();
+        let (exit, result) = self.emitter.block_with();
+        let arrive = self.emitter.block();
+        let enter: [Block; PHASES] = std::array::from_fn(|_| self.emitter.block());
+        self.emitter.branch_to(phase, &enter);
+        for (phase, block) in (0..).zip(enter) {
+            self.emitter.begin(block);
+            match phase {
+                SETTLE => {
+                    let one = self.emitter.number(1);
+                    self.emitter.jump_with(settle, one);
+                }
+                EDGE => self.emitter.jump_with(edge, ticks),
+                ARRIVE => self.emitter.jump(arrive),
+                _ => self.emitter.jump_with(on, ticks),
+            }
+        }
 
         self.emitter.begin(edge);
         self.edge();
-        let (more, done) = (self.emitter.block(), self.emitter.block());
+        let (more, done, alone) = (
+            self.emitter.block(),
+            self.emitter.block(),
+            self.emitter.block(),
+        );
         self.emitter.branch(edges, more, done);
         self.emitter.begin(done);
+        self.emitter.branch(tables, arrive, alone);
+        self.emitter.begin(alone);
         self.emitter.jump_with(exit, edges);
         self.emitter.begin(more);
         self.emitter.jump_with(settle, edges);
@@ -97,18 +119,40 @@ impl Flow<'_> {
         self.settle();
         let left_now = self.emitter.ins().iadd_imm_s(settles, -1);
         let event = self.emitter.load(self.plan.layout.event);
-        let (stop, on) = (self.emitter.block(), self.emitter.block());
-        self.emitter.branch(event, stop, on);
+        let (changed, same) = (self.emitter.block(), self.emitter.block());
+        let (shown, stop) = (self.emitter.block(), self.emitter.block());
+        self.emitter.branch(event, changed, same);
+        self.emitter.begin(same);
+        self.emitter.jump_with(on, left_now);
+        self.emitter.begin(changed);
+        self.emitter.branch(tables, shown, stop);
         self.emitter.begin(stop);
         self.emitter.jump_with(exit, left_now);
+        self.emitter.begin(shown);
+        self.row(left_now, on, exit);
+
         self.emitter.begin(on);
-        let again = self.emitter.block();
-        self.emitter.branch(left_now, again, stop);
+        let (again, last, last_of_replay) = (
+            self.emitter.block(),
+            self.emitter.block(),
+            self.emitter.block(),
+        );
+        let leave = self.emitter.block();
+        self.emitter.branch(left, again, last);
         self.emitter.begin(again);
-        self.emitter.jump_with(edge, left_now);
+        self.emitter.jump_with(edge, left);
+        self.emitter.begin(last);
+        self.emitter.branch(tables, last_of_replay, leave);
+        self.emitter.begin(last_of_replay);
+        self.stops(edge, leave, left);
+        self.emitter.begin(leave);
+        self.emitter.jump_with(exit, left);
+
+        self.emitter.begin(arrive);
+        self.arrive(settle, exit);
 
         self.emitter.begin(exit);
-        self.emitter.ins().return_(&[left]);
+        self.emitter.ins().return_(&[result]);
     }
 
     fn settle(&mut self) {

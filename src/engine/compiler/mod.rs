@@ -7,16 +7,20 @@ mod block;
 mod emit;
 mod flow;
 mod runs;
+mod shown;
 #[cfg(test)]
 mod tests;
 
+use super::input::InputChange;
 use super::plan::Plan;
+use super::replay::Replay;
 use cranelift_codegen::Context;
 use cranelift_codegen::control::ControlPlane;
 use cranelift_codegen::ir::{AbiParam, Signature, types};
 use cranelift_codegen::isa::OwnedTargetIsa;
 use cranelift_codegen::settings::{self, Configurable, Flags};
 use memmap2::{Mmap, MmapMut};
+use shown::{ENDED, Tables};
 use std::ffi::c_void;
 use std::fmt;
 use wasmtime_internal_jit_icache_coherence as coherence;
@@ -49,8 +53,9 @@ pub enum CompileError {
     Plan,
 }
 
-/// Compiled function: takes `slab`, phase and ticks; returns the number of ticks left.
-type Entry = unsafe extern "C" fn(*mut u64, u64, u64) -> u64;
+/// Compiled function: takes `slab`, phase, ticks and the tables of a replay, if there is one;
+/// returns the number of ticks left.
+type Entry = unsafe extern "C" fn(*mut u64, u64, u64, *mut Tables) -> u64;
 
 /// Number of words computed in a part of a block. All may be live at once, and the compile time
 /// grows with the square of that number.
@@ -65,6 +70,13 @@ const FRAME: u32 = 512 * 1024;
 const SETTLE: u64 = 0;
 /// Phase that makes an edge, then alternates settlings and edges while ticks are left.
 const EDGE: u64 = 1;
+/// Phase that begins a tick of a replay: input changes, then settlings and edges.
+const ARRIVE: u64 = 2;
+/// Phase that goes on from a settled tick of a replay; ticks are those left before the next
+/// arrival.
+const GO_ON: u64 = 3;
+/// Number of phases.
+const PHASES: usize = 4;
 
 impl Code {
     /// Compiles a plan.
@@ -95,7 +107,7 @@ impl Code {
         let call = isa.default_call_conv();
         let word = || AbiParam::new(types::I64);
         context.func.signature = Signature {
-            params: vec![word(), word(), word()],
+            params: vec![word(), word(), word(), word()],
             returns: vec![word()],
             call_conv: call,
         };
@@ -140,22 +152,83 @@ impl Code {
         }
     }
 
+    /// Goes on with a replay until it is where it is to stop, or its rows are full.
+    pub fn replay(&self, slab: &mut [u64], replay: &mut Replay<'_>) {
+        let Some(shown) = replay.shown.table(self.words) else {
+            return;
+        };
+        if slab.len() != self.words || replay.is_there() || replay.is_full() {
+            return;
+        }
+        let changes = replay.changes.as_ptr_range();
+        let stop = replay.stop.saturating_add(1);
+        let end = replay.end.min(stop);
+        let (phase, left, arrival) = match replay.settled {
+            true => {
+                let arrival = replay.held_until().min(end);
+                (GO_ON, arrival - replay.tick - 1, arrival)
+            }
+            false => (ARRIVE, 0, replay.tick),
+        };
+        let room = replay.rows.len() - replay.row;
+        let rows = replay.rows.as_mut_ptr();
+        let mut tables = Tables {
+            next: changes.start,
+            last: changes.end,
+            row: rows.wrapping_add(replay.used),
+            last_row: rows.wrapping_add(room),
+            shown: shown.as_ptr(),
+            arrival,
+            end,
+            stop,
+        };
+        // SAFETY: see `call` for the slab. The tables belong to this call alone. The code reads
+        // changes from `next` up to `last`, and bounds their ports. It reads `shown` at the number
+        // of a watched word and at the places that stand in it, and the slab at its slots: `Shown`
+        // has one place for each watched word of a plan with slabs of this length, and all places
+        // and slots are within bounds. It writes a row only where one with all words has room:
+        // here as `is_full` says, then as it compares with `last_row`; each entry of `shown` is in
+        // the list of one watched word, whose mark is cleared, so it is written once in a row.
+        let left = unsafe { self.call(slab, phase, left, &mut tables) };
+        let words = (tables.row as usize).wrapping_sub(rows as usize) / size_of::<u64>();
+        let made = (tables.next as usize).wrapping_sub(changes.start as usize);
+        replay.used = words;
+        replay.changes = replay
+            .changes
+            .get(made / size_of::<InputChange>()..)
+            .unwrap_or_default();
+        (replay.tick, replay.settled) = match left {
+            ENDED => (tables.arrival, false),
+            left => (tables.arrival - 1 - left, true),
+        };
+    }
+
     /// Returns the number of ticks left.
     fn run(&self, slab: &mut [u64], phase: u64, ticks: u64) -> u64 {
         if slab.len() != self.words {
             return ticks;
         }
+        // SAFETY: the slab has the length of the plan, and there is no replay.
+        unsafe { self.call(slab, phase, ticks, std::ptr::null_mut()) }
+    }
+
+    /// Calls the code.
+    ///
+    /// # Safety
+    /// The slab has `words` words. `tables` is null in the phases `SETTLE` and `EDGE`; in the other
+    /// phases, it and what it points to are valid.
+    unsafe fn call(&self, slab: &mut [u64], phase: u64, ticks: u64, tables: *mut Tables) -> u64 {
         // SAFETY: the memory begins with a function that Cranelift made for this machine, with the
         // signature and the convention of `Entry`; it is executable and stays as it is as long as
         // `self` lives.
         let entry: Entry = unsafe { std::mem::transmute(self.memory.as_ptr()) };
-        // SAFETY: the code reads and writes nothing but the slab, which is borrowed for it alone:
-        // `Emitter` takes offsets below `layout.words` only, which the slab has as checked above,
-        // and bounds every address of a memory, whatever stands in the slab. It keeps no state
+        // SAFETY: without tables, the code reads and writes nothing but the slab, which is borrowed
+        // for it alone: `Emitter` takes offsets below `layout.words` only, which the slab has, and
+        // bounds every address of a memory, whatever stands in the slab. It keeps no state
         // elsewhere, so threads can run it at the same time. It calls nothing and cannot unwind. Its
         // frame is of `FRAME` bytes at most, and it touches each page of it in turn: a stack that is
         // too small ends at its guard page, as under any other function.
-        unsafe { entry(slab.as_mut_ptr(), phase, ticks) }
+        unsafe { entry(slab.as_mut_ptr(), phase, ticks, tables) }
     }
 }
 

@@ -5,6 +5,7 @@ mod error;
 mod handle;
 mod names;
 mod play;
+mod replay;
 mod run;
 mod snapshot;
 mod tap;

@@ -1,10 +1,12 @@
 //! Runs of a model with arrays of inputs and outputs.
 
+use super::replay::LONG;
 use super::{Handle, Model, ModelError};
+use crate::engine::InputChange;
 use crate::netlist::Kind;
 
-/// Ticks from which on signals that are read are watched.
-const LONG: usize = 16;
+/// Ticks of which the changes of input ports are listed at a time.
+const LISTED: usize = 1 << 16;
 
 impl Model {
     /// Runs `ticks` ticks with an array of values, one per tick, for each of some input ports;
@@ -53,20 +55,19 @@ impl Model {
         }
         let leaves = seen.iter().map(|&handle| self.leaf(handle));
         let leaves = leaves.collect::<Result<Vec<_>, _>>()?;
-        if ticks >= LONG {
+        if ticks as u64 >= LONG {
             self.watch(seen)?;
+            return Ok(self.play_long(ticks, &ports, &leaves));
         }
         let mut columns = vec![Vec::with_capacity(ticks); leaves.len()];
-        let leaves: Vec<(usize, u32)> = leaves.into_iter().map(|leaf| self.seen(leaf)).collect();
         for tick in 0..ticks {
             for &(port, mask, values) in &ports {
                 self.engine.drive(port, values[tick] & mask);
             }
             self.settled &= ports.is_empty();
             self.settle();
-            for (&(leaf, above), column) in leaves.iter().zip(&mut columns) {
-                let word = self.engine.word(leaf);
-                column.push(((word << above) as i64 >> above) as u64);
+            for (&leaf, column) in leaves.iter().zip(&mut columns) {
+                column.push(extended(self.engine.word(leaf), self.above(leaf)));
             }
             self.receive();
             self.edge();
@@ -74,13 +75,65 @@ impl Model {
         Ok(columns)
     }
 
-    /// Returns a leaf and the number of bits above its sign, 0 if it has none.
-    fn seen(&self, leaf: usize) -> (usize, u32) {
+    /// Replays arrays of values for input ports, with the masks of their bits.
+    fn play_long(
+        &mut self,
+        ticks: usize,
+        ports: &[(usize, u64, &[u64])],
+        leaves: &[usize],
+    ) -> Vec<Vec<u64>> {
+        let mut columns = vec![Vec::with_capacity(ticks); leaves.len()];
+        let above: Vec<u32> = leaves.iter().map(|&leaf| self.above(leaf)).collect();
+        let words = (0..self.ports().count()).map(|port| self.engine.port(port));
+        let mut words: Vec<u64> = words.map(Option::unwrap_or_default).collect();
+        let mut changes = Vec::new();
+        let start = self.tick;
+        for first in (0..ticks).step_by(LISTED) {
+            let end = ticks.min(first + LISTED);
+            changes.clear();
+            for index in first..end {
+                let tick = start + index as u64;
+                for &(port, mask, values) in ports {
+                    let word = values[index] & mask;
+                    if std::mem::replace(&mut words[port], word) != word {
+                        changes.push(InputChange { tick, port, word });
+                    }
+                }
+            }
+            let listed = (end - first) as u64;
+            self.replay_tapped(listed, &changes, leaves, false, |now| {
+                for (index, word) in now.changes() {
+                    let column = &mut columns[index];
+                    hold(column, (now.tick - start) as usize);
+                    column.push(extended(word, above[index]));
+                }
+            });
+            for column in &mut columns {
+                hold(column, end);
+            }
+        }
+        columns
+    }
+
+    /// Returns the number of bits above the sign of a leaf, 0 if it has none.
+    fn above(&self, leaf: usize) -> u32 {
         let shape = self.shape_of(leaf);
-        let above = match shape.kind {
+        match shape.kind {
             Kind::Signed => 64 - shape.width as u32,
             Kind::Bit | Kind::Unsigned => 0,
-        };
-        (leaf, above)
+        }
     }
+}
+
+/// Repeats the last value of a column up to a tick.
+#[inline]
+fn hold(column: &mut Vec<u64>, ticks: usize) {
+    let last = column.last().copied().unwrap_or_default();
+    column.resize(ticks, last);
+}
+
+/// Returns a word with its sign in the bits above, of which there are so many.
+#[inline]
+fn extended(word: u64, above: u32) -> u64 {
+    ((word << above) as i64 >> above) as u64
 }

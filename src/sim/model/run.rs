@@ -4,7 +4,7 @@ use super::Model;
 use crate::engine::Engine;
 
 /// Receiver of a settled tick.
-type Receiver<'r> = &'r mut dyn FnMut(u64, &Engine);
+pub(in crate::sim) type Receiver<'r> = &'r mut dyn FnMut(u64, &Engine);
 
 impl Model {
     #[inline]

@@ -1,7 +1,7 @@
 //! Runs of many ticks.
 
 use super::Simulator;
-use crate::engine::Engine;
+use crate::engine::{Engine, InputChange, ReplayTick};
 use crate::hdl::{Circuit, Value};
 use crate::sim::{Observer, RunError, Sample, State};
 use std::ops::ControlFlow;
@@ -89,6 +89,103 @@ impl<C: Circuit> Simulator<C> {
                 if !self.go_to_change(until, jumps) {
                     break;
                 }
+            }
+        }
+        Ok(())
+    }
+
+    /// Replays `ticks` ticks with recorded changes of input ports, and shows the ticks in which one
+    /// of the leaves `shown` has changed. All of this runs in compiled code, so that it is the
+    /// fastest way to get every value of some signals. `now.changes()` gives a leaf by its index
+    /// in `shown`.
+    ///
+    /// The first tick is shown with all leaves. After that, leaves hold their values from one
+    /// shown tick to the next. Leaves that are not [watched](Self::watching), and words of
+    /// memories, cost a comparison in each tick. A leaf that the circuit does not have is never
+    /// shown.
+    ///
+    /// Changes are sorted by tick, and change a port once in a tick. Ticks of changes are those of
+    /// the simulator. Changes before its current tick are left out, so that a replay can be cut
+    /// into pieces with the same table.
+    ///
+    /// ```
+    /// use motion_rtl::circuits::blocks::EnableCounter;
+    /// use motion_rtl::sim::{InputChange, Simulator};
+    ///
+    /// let circuit = EnableCounter { width: 8 };
+    /// let (mut counter, shown) = Simulator::watching(&circuit, false, |watch| watch.ports_out())?;
+    /// let change = |tick, word| InputChange { tick, port: 0, word };
+    /// let mut rises = Vec::new();
+    /// counter.replay(100, &[change(0, 10), change(50, 25)], &shown, |now| {
+    ///     rises.extend(now.changes().filter(|(_, word)| *word == 1).map(|_| now.tick));
+    /// })?;
+    /// assert_eq!(rises, [9, 19, 29, 39, 49, 74, 99]);
+    /// # Ok::<(), motion_rtl::sim::RunError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Returns an error if a change is not in order, has no port, does not fit it, or is the second
+    /// of its port in a tick. No tick happens then.
+    pub fn replay(
+        &mut self,
+        ticks: u64,
+        changes: &[InputChange],
+        shown: &[usize],
+        see: impl FnMut(ReplayTick<'_>),
+    ) -> Result<(), RunError> {
+        self.replay_of(ticks, changes, shown, false, see)
+    }
+
+    /// Replays like [`replay`](Self::replay), but jumps over idle ticks, as
+    /// [`fast_forward`](Self::fast_forward) does. Every change of an output port and of a leaf that
+    /// was [watched](super::Watcher::at) by its place is shown. Of other leaves, values within idle ticks
+    /// are left out.
+    ///
+    /// ```
+    /// use motion_rtl::circuits::blocks::EnableCounter;
+    /// use motion_rtl::sim::{InputChange, Simulator};
+    ///
+    /// let circuit = EnableCounter { width: 48 };
+    /// let (mut counter, shown) = Simulator::watching(&circuit, false, |watch| watch.ports_out())?;
+    /// let change = InputChange { tick: 0, port: 0, word: 1 << 40 };
+    /// let mut ticks = Vec::new();
+    /// counter.fast_replay(1 << 41, &[change], &shown, |now| ticks.push(now.tick))?;
+    /// assert_eq!(ticks, [0, (1 << 40) - 1, 1 << 40, (1 << 41) - 1]);
+    /// # Ok::<(), motion_rtl::sim::RunError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Returns the errors of [`replay`](Self::replay).
+    pub fn fast_replay(
+        &mut self,
+        ticks: u64,
+        changes: &[InputChange],
+        shown: &[usize],
+        see: impl FnMut(ReplayTick<'_>),
+    ) -> Result<(), RunError> {
+        self.replay_of(ticks, changes, shown, true, see)
+    }
+
+    fn replay_of(
+        &mut self,
+        ticks: u64,
+        changes: &[InputChange],
+        shown: &[usize],
+        jumps: bool,
+        see: impl FnMut(ReplayTick<'_>),
+    ) -> Result<(), RunError> {
+        let Simulator {
+            model, known, each, ..
+        } = self;
+        let checked = model.ports().check_changes(changes);
+        checked.map_err(|(tick, error)| RunError::at(tick)(error))?;
+        match each {
+            None => model.replay_leaves(ticks, changes, shown, jumps, None, see),
+            Some(each) => {
+                let mut receive = |tick: u64, engine: &Engine| {
+                    Sample::show(tick, known, engine, |now| each(now));
+                };
+                model.replay_leaves(ticks, changes, shown, jumps, Some(&mut receive), see);
             }
         }
         Ok(())

@@ -2,7 +2,7 @@
 
 use motion_rtl::Model;
 use motion_rtl::registry::Pair;
-use motion_rtl::sim::ModelError;
+use motion_rtl::sim::{InputChange, ModelError};
 
 fn pair(text: &str) -> Pair {
     text.parse().unwrap()
@@ -203,4 +203,51 @@ fn arrays() {
     assert!(text(model.play(1, &[(x, &[0])], &[])).contains("only input ports can be set"));
     assert_eq!(model.tick(), 10);
     assert_eq!(model.play(0, &[], &[x]).unwrap(), [[0; 0]]);
+}
+
+#[test]
+fn tables_of_changes() {
+    let mut model = interpolator();
+    model.run(10);
+    let ports = ["scan", "target_x"].map(|name| model.find(name).unwrap().index());
+    let [scan, target] = ports;
+    let change = |tick, port, word| InputChange { tick, port, word };
+    let mut refused = |changes: &[InputChange]| {
+        let one = text(model.replay(20, changes, &[], |_| panic!("no tick happens")));
+        let other = text(model.fast_replay(20, changes, &[], |_| panic!("no tick happens")));
+        assert_eq!((&one, model.tick()), (&other, 10));
+        one
+    };
+    assert_eq!(
+        refused(&[change(12, scan, 1), change(11, target, 0)]),
+        "tick 11: a change stands behind one of tick 12; changes must be sorted by tick"
+    );
+    assert_eq!(
+        refused(&[
+            change(12, scan, 1),
+            change(12, target, 1),
+            change(12, scan, 0)
+        ]),
+        "tick 12: port in scan changes twice; one change of a port is allowed in a tick"
+    );
+    assert_eq!(
+        refused(&[change(12, scan, 1), change(99, scan, 2)]),
+        "tick 99: port in scan: 2 does not fit; allowed are 0 to 1"
+    );
+    assert_eq!(
+        refused(&[change(0, target, 1 << 20)]),
+        "tick 0: port in target_x: 1048576 does not fit; allowed are 0 to 1048575"
+    );
+    let past = text(model.replay(20, &[change(11, 1000, 0)], &[], |_| {}));
+    assert!(
+        past.starts_with("tick 11: port in 1000 does not exist"),
+        "{past}"
+    );
+    let wider = Model::new("linear_interpolator", &[pair("widths.position=21")]).unwrap();
+    let x = wider.find("x").unwrap();
+    let wrong =
+        "the handle is of another circuit than this linear_interpolator, or of other settings";
+    assert_eq!(text(model.replay(20, &[], &[x], |_| {})), wrong);
+    assert_eq!(model.tick(), 10);
+    assert_eq!(model.get("scan").unwrap(), 0);
 }

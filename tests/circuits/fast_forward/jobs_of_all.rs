@@ -3,7 +3,7 @@
 use super::registers;
 use motion_rtl::hdl::Circuit;
 use motion_rtl::scenario::shipped::{self, Clock, Recorded, ShippedError};
-use motion_rtl::sim::{Observer, RunError, Sample, Simulator};
+use motion_rtl::sim::{Observer, ReplayTick, RunError, Sample, Simulator};
 use std::ops::ControlFlow;
 
 /// Returns one word in which every output has a part.
@@ -42,6 +42,31 @@ impl<C: Circuit> Observer<C> for Words<'_> {
     }
 }
 
+/// Words of the ports out, from the ticks of a replay.
+struct Rows<'s, 'o> {
+    seen: &'s mut Words<'o>,
+    words: Vec<u64>,
+}
+
+impl<'s, 'o> Rows<'s, 'o> {
+    fn of(seen: &'s mut Words<'o>) -> Self {
+        Rows {
+            words: vec![0; seen.outputs.len()],
+            seen,
+        }
+    }
+
+    fn take(&mut self, now: &ReplayTick<'_>) {
+        self.seen.hold(now.tick);
+        for (index, word) in now.changes() {
+            self.words[index] = word;
+        }
+        let words = self.words.iter();
+        let word = words.fold(0u64, |word, new| word.rotate_left(7) ^ new);
+        self.seen.words.push(word);
+    }
+}
+
 /// Runs a job tick by tick on the interpreter, where all nets are watched, and in all other ways.
 fn same<C: Circuit>(job: Result<Recorded<C>, ShippedError>) {
     let Recorded { circuit, inputs } = job.expect("it ships");
@@ -71,8 +96,17 @@ fn same<C: Circuit>(job: Result<Recorded<C>, ShippedError>) {
         ("changes", ports.clone(), Way::Changes),
         ("changes, interpreted", interpreted(&ports), Way::Changes),
         ("gone over", ports.clone(), Way::Forward),
-        ("gone over, all watched", whole, Way::Forward),
+        ("gone over, all watched", whole.clone(), Way::Forward),
         ("gone over, interpreted", interpreted(&ports), Way::Forward),
+        ("replayed", ports.clone(), Way::Replay),
+        ("replayed, all watched", whole.clone(), Way::Replay),
+        ("replayed, interpreted", interpreted(&ports), Way::Replay),
+        ("replayed, gone over", ports.clone(), Way::FastReplay),
+        (
+            "replayed, gone over, interpreted",
+            interpreted(&ports),
+            Way::FastReplay,
+        ),
     ];
     for (how, mut simulator, way) in ways {
         let mut seen = Words::new(&outputs);
@@ -81,6 +115,14 @@ fn same<C: Circuit>(job: Result<Recorded<C>, ShippedError>) {
             Way::Run => simulator.run_changes(ticks, |at| replay.tick(at), &mut seen),
             Way::Changes => simulator.run_changes(ticks, |at| replay.held(at), &mut seen),
             Way::Forward => simulator.fast_forward(ticks, |at| replay.held(at), &mut seen),
+            Way::Replay => {
+                let mut rows = Rows::of(&mut seen);
+                simulator.replay(ticks, &inputs.changes, &outputs, |now| rows.take(&now))
+            }
+            Way::FastReplay => {
+                let mut rows = Rows::of(&mut seen);
+                simulator.fast_replay(ticks, &inputs.changes, &outputs, |now| rows.take(&now))
+            }
         };
         run.expect("no objection");
         seen.hold(ticks);
@@ -97,6 +139,8 @@ enum Way {
     Run,
     Changes,
     Forward,
+    Replay,
+    FastReplay,
 }
 
 /// At the clock of the scenario and at a fast one, in which most ticks are idle.

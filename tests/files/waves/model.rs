@@ -155,6 +155,8 @@ fn every_way_to_advance_is_in_the_waves() {
     assert!(waves("forward.vcd", &|model| model.fast_forward(100)) == stepped);
     let played = |model: &mut Model| drop(model.play(100, &[], &[]).unwrap());
     assert!(waves("play.vcd", &played) == stepped);
+    let replayed = |model: &mut Model| model.fast_replay(100, &[], &[], |_| {}).unwrap();
+    assert!(waves("replay.vcd", &replayed) == stepped);
 }
 
 #[test]

@@ -1,0 +1,194 @@
+//! Replays: runs with a table of changes of input ports, in which changes of signals are shown.
+
+use super::run::Receiver;
+use super::{Handle, Model, ModelError};
+use crate::engine::{InputChange, Replay, ReplayTick};
+
+/// Ticks from which on shown signals are watched.
+pub(super) const LONG: u64 = 16;
+
+impl Model {
+    /// Replays `ticks` ticks with recorded changes of input ports, and shows the ticks in which one
+    /// of the signals in `shown` has changed. All of this runs in compiled code, so that it is the
+    /// fastest way to get every value of some signals.
+    ///
+    /// The first tick is shown with all signals. After that, signals hold their values from one
+    /// shown tick to the next.
+    ///
+    /// Changes are sorted by tick, and change a port once in a tick. Ticks of changes are those of
+    /// the model. Changes before its current tick are left out, so that a replay can be cut into
+    /// pieces with the same table.
+    ///
+    /// ```
+    /// use motion_rtl::Model;
+    /// use motion_rtl::sim::InputChange;
+    ///
+    /// let mut counter = Model::new("enable_counter", &["width=8".parse()?])?;
+    /// let [period, enable] = [counter.find("period")?, counter.find("enable")?];
+    /// let change = |tick, word| InputChange { tick, port: period.index(), word };
+    /// let mut rises = Vec::new();
+    /// counter.replay(100, &[change(0, 10), change(50, 25)], &[enable], |now| {
+    ///     rises.extend(now.changes().filter(|(_, word)| *word == 1).map(|_| now.tick));
+    /// })?;
+    /// assert_eq!(rises, [9, 19, 29, 39, 49, 74, 99]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// Words of memories can be shown too, at the cost of a comparison in each tick.
+    ///
+    /// # Errors
+    /// Returns an error if a handle is of another circuit, or if a change is not in order, has no
+    /// port, does not fit it, or is the second of its port in a tick. No tick happens then.
+    pub fn replay(
+        &mut self,
+        ticks: u64,
+        changes: &[InputChange],
+        shown: &[Handle],
+        see: impl FnMut(ReplayTick<'_>),
+    ) -> Result<(), ModelError> {
+        self.replay_of(ticks, changes, shown, false, see)
+    }
+
+    /// Replays like [`replay`](Self::replay), but jumps over idle ticks: those in which registers
+    /// do nothing but count. Every change of an output port is shown. Of other signals, values
+    /// within idle ticks are left out. While waves are written, no tick is left out.
+    ///
+    /// ```
+    /// use motion_rtl::Model;
+    /// use motion_rtl::sim::InputChange;
+    ///
+    /// let mut counter = Model::new("enable_counter", &["width=48".parse()?])?;
+    /// let [period, enable] = [counter.find("period")?, counter.find("enable")?];
+    /// let change = InputChange { tick: 0, port: period.index(), word: 1 << 40 };
+    /// let mut shown = Vec::new();
+    /// counter.fast_replay(1 << 41, &[change], &[enable], |now| shown.push(now.tick))?;
+    /// assert_eq!(shown, [0, (1 << 40) - 1, 1 << 40, (1 << 41) - 1]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Returns the errors of [`replay`](Self::replay).
+    pub fn fast_replay(
+        &mut self,
+        ticks: u64,
+        changes: &[InputChange],
+        shown: &[Handle],
+        see: impl FnMut(ReplayTick<'_>),
+    ) -> Result<(), ModelError> {
+        self.replay_of(ticks, changes, shown, true, see)
+    }
+
+    fn replay_of(
+        &mut self,
+        ticks: u64,
+        changes: &[InputChange],
+        shown: &[Handle],
+        jumps: bool,
+        see: impl FnMut(ReplayTick<'_>),
+    ) -> Result<(), ModelError> {
+        let leaves = shown.iter().map(|&handle| self.leaf(handle));
+        let leaves = leaves.collect::<Result<Vec<_>, _>>()?;
+        let checked = self.circuit.ports.check_changes(changes);
+        checked.map_err(|(tick, error)| ModelError::at(tick)(error))?;
+        if ticks >= LONG {
+            self.watch(shown)?;
+        }
+        self.replay_tapped(ticks, changes, &leaves, jumps, see);
+        Ok(())
+    }
+
+    /// Replays checked changes, and passes all ticks to the tap.
+    pub(super) fn replay_tapped(
+        &mut self,
+        ticks: u64,
+        changes: &[InputChange],
+        leaves: &[usize],
+        jumps: bool,
+        see: impl FnMut(ReplayTick<'_>),
+    ) {
+        match self.tap.take() {
+            None => self.replay_leaves(ticks, changes, leaves, jumps, None, see),
+            Some(mut tap) => {
+                let receive: Receiver<'_> = &mut |tick, engine| tap.tick(tick, engine);
+                self.replay_leaves(ticks, changes, leaves, jumps, Some(receive), see);
+                self.tap = Some(tap);
+            }
+        }
+    }
+
+    /// Replays checked changes; jumps over idle ticks if `jumps` is true and nothing receives the
+    /// ticks.
+    pub(in crate::sim) fn replay_leaves(
+        &mut self,
+        ticks: u64,
+        changes: &[InputChange],
+        leaves: &[usize],
+        jumps: bool,
+        mut receive: Option<Receiver<'_>>,
+        mut see: impl FnMut(ReplayTick<'_>),
+    ) {
+        if ticks == 0 {
+            return;
+        }
+        let end = self.tick.saturating_add(ticks);
+        let first = changes.partition_point(|change| change.tick < self.tick);
+        let (mut replay, marked) =
+            Replay::new(&self.engine, &changes[first..], self.tick..end, leaves);
+        // The first tick shows all leaves, whatever has changed.
+        self.go_on_with(&mut replay, self.tick, &mut |_: ReplayTick<'_>| {});
+        let mut words: Vec<_> = leaves.iter().map(|&leaf| self.engine.leaf(leaf)).collect();
+        let known = words.iter().enumerate();
+        let known = known.filter_map(|(index, word)| Some([index as u64, (*word)?]));
+        let mut pairs: Vec<u64> = known.flatten().collect();
+        see(ReplayTick::new(self.tick, &pairs));
+        loop {
+            // This tick is settled.
+            match &mut receive {
+                Some(receive) => receive(self.tick, &self.engine),
+                None if jumps => self.engine.replay_forward(&mut replay),
+                None => {}
+            }
+            self.tick = replay.tick();
+            let stop = match () {
+                () if receive.is_some() || !marked => self.tick,
+                () if jumps => self.engine.search_after(self.tick),
+                () => u64::MAX,
+            };
+            self.go_on_with(&mut replay, stop, &mut see);
+            if replay.is_over() {
+                return;
+            }
+            if !marked {
+                pairs.clear();
+                for (index, (&leaf, old)) in leaves.iter().zip(&mut words).enumerate() {
+                    let new = self.engine.leaf(leaf);
+                    if let Some(word) = new
+                        && std::mem::replace(old, new) != new
+                    {
+                        pairs.extend([index as u64, word]);
+                    }
+                }
+                if !pairs.is_empty() {
+                    see(ReplayTick::new(self.tick, &pairs));
+                }
+            }
+        }
+    }
+
+    /// Goes on until `stop` is settled or to the end.
+    fn go_on_with(
+        &mut self,
+        replay: &mut Replay<'_>,
+        stop: u64,
+        see: &mut impl FnMut(ReplayTick<'_>),
+    ) {
+        let Model {
+            engine,
+            tick,
+            settled,
+            ..
+        } = self;
+        engine.replay(replay, stop, |now| see(now));
+        (*tick, *settled) = (replay.tick(), replay.is_settled());
+    }
+}
