@@ -49,14 +49,6 @@ impl Shown {
     /// Number of words of an entry.
     const ENTRY: usize = 3;
 
-    /// Returns no leaves.
-    fn none(layout: &Layout) -> Self {
-        Shown {
-            table: vec![0; layout.watched.len()],
-            words: layout.words as usize,
-        }
-    }
-
     /// Returns the leaves; `None` if one of them has no change mark of its own, as a word of a
     /// memory and a leaf that is not watched.
     fn of(layout: &Layout, leaves: &[usize]) -> Option<Self> {
@@ -66,7 +58,10 @@ impl Shown {
                 bits.extend(watched.leaves.iter().map(|&leaf| (leaf as usize, bit)));
             }
         }
-        let mut shown = Shown::none(layout);
+        let mut shown = Shown {
+            table: vec![0; layout.watched.len()],
+            words: layout.words as usize,
+        };
         for (number, leaf) in leaves.iter().enumerate() {
             match (layout.leaves.get(*leaf), bits.get(leaf)) {
                 (None | Some(Spot::Constant(_)), _) => {}
@@ -116,15 +111,15 @@ pub(crate) struct Replay<'r> {
 }
 
 impl<'r> Replay<'r> {
-    /// Returns a replay of the ticks from this one of an engine up to one that is not replayed.
-    /// Also returns true if every change of the leaves gets into a row; otherwise, no row is
-    /// written.
+    /// Creates a replay of the ticks from this one of an engine up to one that is not replayed.
+    /// Returns `None` if a leaf has no change mark of its own: a word of a memory, or a leaf that
+    /// is not watched.
     pub fn new(
         engine: &Engine,
         changes: &'r [InputChange],
         ticks: Range<u64>,
         leaves: &[usize],
-    ) -> (Self, bool) {
+    ) -> Option<Self> {
         Replay::with_rows(engine, changes, ticks, leaves, ROWS)
     }
 
@@ -134,13 +129,11 @@ impl<'r> Replay<'r> {
         ticks: Range<u64>,
         leaves: &[usize],
         words: usize,
-    ) -> (Self, bool) {
+    ) -> Option<Self> {
         let layout = &engine.program.plan.layout;
-        let shown = Shown::of(layout, leaves);
-        let all = shown.is_some();
-        let shown = shown.unwrap_or_else(|| Shown::none(layout));
+        let shown = Shown::of(layout, leaves)?;
         let row = shown.row(layout);
-        let replay = Replay {
+        Some(Replay {
             changes,
             shown,
             tick: ticks.start,
@@ -150,8 +143,7 @@ impl<'r> Replay<'r> {
             rows: vec![0; words.max(row)],
             used: 0,
             row,
-        };
-        (replay, all)
+        })
     }
 
     /// Returns the current tick.

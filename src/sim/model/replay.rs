@@ -124,71 +124,106 @@ impl Model {
         changes: &[InputChange],
         leaves: &[usize],
         jumps: bool,
-        mut receive: Option<Receiver<'_>>,
-        mut see: impl FnMut(ReplayTick<'_>),
+        receive: Option<Receiver<'_>>,
+        see: impl FnMut(ReplayTick<'_>),
     ) {
-        if ticks == 0 {
-            return;
-        }
         let end = self.tick.saturating_add(ticks);
         let first = changes.partition_point(|change| change.tick < self.tick);
-        let (mut replay, marked) =
-            Replay::new(&self.engine, &changes[first..], self.tick..end, leaves);
-        // The first tick shows all leaves, whatever has changed.
-        self.go_on_with(&mut replay, self.tick, &mut |_: ReplayTick<'_>| {});
-        let mut words: Vec<_> = leaves.iter().map(|&leaf| self.engine.leaf(leaf)).collect();
-        let known = words.iter().enumerate();
-        let known = known.filter_map(|(index, word)| Some([index as u64, (*word)?]));
-        let mut pairs: Vec<u64> = known.flatten().collect();
-        see(ReplayTick::new(self.tick, &pairs));
-        loop {
-            // This tick is settled.
-            match &mut receive {
-                Some(receive) => receive(self.tick, &self.engine),
-                None if jumps => self.engine.replay_forward(&mut replay),
-                None => {}
-            }
-            self.tick = replay.tick();
-            let stop = match () {
-                () if receive.is_some() || !marked => self.tick,
-                () if jumps => self.engine.search_after(self.tick),
-                () => u64::MAX,
-            };
-            self.go_on_with(&mut replay, stop, &mut see);
-            if replay.is_over() {
-                return;
-            }
-            if !marked {
-                pairs.clear();
-                for (index, (&leaf, old)) in leaves.iter().zip(&mut words).enumerate() {
-                    let new = self.engine.leaf(leaf);
-                    if let Some(word) = new
-                        && std::mem::replace(old, new) != new
-                    {
-                        pairs.extend([index as u64, word]);
-                    }
-                }
-                if !pairs.is_empty() {
-                    see(ReplayTick::new(self.tick, &pairs));
-                }
-            }
+        let changes = &changes[first..];
+        match Replay::new(&self.engine, changes, self.tick..end, leaves) {
+            // A receiver needs the change marks, which rows clear.
+            Some(replay) if receive.is_none() => self.replay_rows(replay, leaves, jumps, see),
+            _ => self.replay_ticks(changes, end, leaves, jumps, receive, see),
         }
     }
 
-    /// Goes on until `stop` is settled or to the end.
-    fn go_on_with(
+    /// Replays with tables on both sides.
+    fn replay_rows(
         &mut self,
-        replay: &mut Replay<'_>,
-        stop: u64,
-        see: &mut impl FnMut(ReplayTick<'_>),
+        mut replay: Replay<'_>,
+        leaves: &[usize],
+        jumps: bool,
+        mut see: impl FnMut(ReplayTick<'_>),
     ) {
-        let Model {
-            engine,
-            tick,
-            settled,
-            ..
-        } = self;
-        engine.replay(replay, stop, |now| see(now));
-        (*tick, *settled) = (replay.tick(), replay.is_settled());
+        if replay.is_over() {
+            return;
+        }
+        // The first tick shows all leaves, whatever has changed.
+        self.go_on_with(&mut replay, self.tick, |_| {});
+        let words = leaves.iter().map(|&leaf| self.engine.leaf(leaf));
+        let known = words
+            .enumerate()
+            .filter_map(|(index, word)| Some([index as u64, word?]));
+        let pairs: Vec<u64> = known.flatten().collect();
+        see(ReplayTick::new(self.tick, &pairs));
+        while !replay.is_over() {
+            // This tick is settled.
+            let stop = match jumps {
+                true => {
+                    self.engine.replay_forward(&mut replay);
+                    self.engine.search_after(replay.tick())
+                }
+                false => u64::MAX,
+            };
+            self.go_on_with(&mut replay, stop, &mut see);
+        }
+    }
+
+    /// Goes on with a replay until `stop` is settled, or to the end.
+    fn go_on_with(&mut self, replay: &mut Replay<'_>, stop: u64, see: impl FnMut(ReplayTick<'_>)) {
+        self.engine.replay(replay, stop, see);
+        (self.tick, self.settled) = (replay.tick(), replay.is_settled());
+    }
+
+    /// Replays tick by tick, and compares all leaves in each.
+    fn replay_ticks(
+        &mut self,
+        mut changes: &[InputChange],
+        end: u64,
+        leaves: &[usize],
+        jumps: bool,
+        mut receive: Option<Receiver<'_>>,
+        mut see: impl FnMut(ReplayTick<'_>),
+    ) {
+        let first = self.tick;
+        let mut words = vec![None; leaves.len()];
+        let mut pairs = Vec::new();
+        while self.tick < end {
+            while let Some((change, rest)) = changes.split_first()
+                && change.tick <= self.tick
+            {
+                self.drive(change.port, change.word);
+                changes = rest;
+            }
+            self.settle();
+            pairs.clear();
+            for (index, (&leaf, old)) in leaves.iter().zip(&mut words).enumerate() {
+                let new = self.engine.leaf(leaf);
+                if let Some(word) = new
+                    && std::mem::replace(old, new) != new
+                {
+                    pairs.extend([index as u64, word]);
+                }
+            }
+            if !pairs.is_empty() || self.tick == first {
+                see(ReplayTick::new(self.tick, &pairs));
+            }
+            let held = changes.first().map_or(end, |change| change.tick.min(end));
+            let gone = match &mut receive {
+                Some(receive) => {
+                    receive(self.tick, &self.engine);
+                    0
+                }
+                None if jumps => self.engine.forward(held - self.tick),
+                None => 0,
+            };
+            match gone {
+                0 => self.edge(),
+                gone => {
+                    self.tick += gone;
+                    self.settled = false;
+                }
+            }
+        }
     }
 }
