@@ -42,6 +42,7 @@ pub(super) struct Shown {
     /// the index of a leaf that shows it, and the place of the word's next entry. Place 0 is none.
     table: Vec<u64>,
     /// Number of words of a slab.
+    #[cfg(feature = "jit")]
     words: usize,
 }
 
@@ -60,6 +61,7 @@ impl Shown {
         }
         let mut shown = Shown {
             table: vec![0; layout.watched.len()],
+            #[cfg(feature = "jit")]
             words: layout.words as usize,
         };
         for (number, leaf) in leaves.iter().enumerate() {
@@ -78,6 +80,7 @@ impl Shown {
 
     /// Returns the table, for a slab of this number of words: its entries are within it, and so are
     /// their slots within the slab.
+    #[cfg(feature = "jit")]
     pub fn table(&self, words: usize) -> Option<&[u64]> {
         (words == self.words).then_some(&self.table)
     }
