@@ -74,6 +74,11 @@ pub enum Spot {
 }
 
 impl Layout {
+    /// Returns the number of bits of `changed`, with the unused ones of its last word.
+    pub fn marks(&self) -> usize {
+        self.changed_words as usize * 64
+    }
+
     pub(super) fn new(blocks: usize) -> Self {
         let mut layout = Layout {
             block_words: blocks.div_ceil(64) as u32,

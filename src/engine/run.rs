@@ -264,7 +264,7 @@ impl Engine {
         ticks
     }
 
-    /// Runs a replay until its backend returns.
+    /// Continues a replay until the backend returns.
     pub(super) fn run(&mut self, replay: &mut Replay<'_>) {
         *self.whole.get_mut() = None;
         let start = replay.tick;

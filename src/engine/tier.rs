@@ -128,9 +128,9 @@ impl Tier {
         }
     }
 
-    /// Goes on with a replay until it is where it is to stop, or its rows are full.
+    /// Continues a replay up to its stop or its end, or until its rows are full.
     pub fn replay(&mut self, plan: &Plan, slab: &mut [u64], replay: &mut Replay<'_>) {
-        while !replay.is_there() && !replay.is_full() {
+        while !replay.is_at_stop() && !replay.is_full() {
             match &self.backend {
                 Backend::Interpreter if replay.settled => {
                     self.edge(plan, slab);

@@ -102,11 +102,7 @@ impl Flow<'_> {
 
         self.emitter.begin(edge);
         self.edge();
-        let (more, done, alone) = (
-            self.emitter.block(),
-            self.emitter.block(),
-            self.emitter.block(),
-        );
+        let [more, done, alone] = std::array::from_fn(|_| self.emitter.block());
         self.emitter.branch(edges, more, done);
         self.emitter.begin(done);
         self.emitter.branch(tables, arrive, alone);
@@ -119,8 +115,7 @@ impl Flow<'_> {
         self.settle();
         let left_now = self.emitter.ins().iadd_imm_s(settles, -1);
         let event = self.emitter.load(self.plan.layout.event);
-        let (changed, same) = (self.emitter.block(), self.emitter.block());
-        let (shown, stop) = (self.emitter.block(), self.emitter.block());
+        let [changed, same, shown, stop] = std::array::from_fn(|_| self.emitter.block());
         self.emitter.branch(event, changed, same);
         self.emitter.begin(same);
         self.emitter.jump_with(on, left_now);
@@ -132,12 +127,7 @@ impl Flow<'_> {
         self.row(left_now, on, exit);
 
         self.emitter.begin(on);
-        let (again, last, last_of_replay) = (
-            self.emitter.block(),
-            self.emitter.block(),
-            self.emitter.block(),
-        );
-        let leave = self.emitter.block();
+        let [again, last, last_of_replay, leave] = std::array::from_fn(|_| self.emitter.block());
         self.emitter.branch(left, again, last);
         self.emitter.begin(again);
         self.emitter.jump_with(edge, left);

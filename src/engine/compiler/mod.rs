@@ -20,7 +20,7 @@ use cranelift_codegen::ir::{AbiParam, Signature, types};
 use cranelift_codegen::isa::OwnedTargetIsa;
 use cranelift_codegen::settings::{self, Configurable, Flags};
 use memmap2::{Mmap, MmapMut};
-use shown::{ENDED, Tables};
+use shown::{ENDED, NEVER, Tables};
 use std::ffi::c_void;
 use std::fmt;
 use wasmtime_internal_jit_icache_coherence as coherence;
@@ -30,6 +30,8 @@ pub struct Code {
     memory: Mmap,
     /// Number of words of a slab.
     words: usize,
+    /// Number of change marks of a slab.
+    marks: usize,
     size: usize,
 }
 
@@ -72,8 +74,8 @@ const SETTLE: u64 = 0;
 const EDGE: u64 = 1;
 /// Phase that begins a tick of a replay: input changes, then settlings and edges.
 const ARRIVE: u64 = 2;
-/// Phase that goes on from a settled tick of a replay; ticks are those left before the next
-/// arrival.
+/// Phase that continues from a settled tick of a replay, with the number of ticks between it and
+/// the next arrival.
 const GO_ON: u64 = 3;
 /// Number of phases.
 const PHASES: usize = 4;
@@ -127,6 +129,7 @@ impl Code {
         Ok(Code {
             memory: executable(bytes)?,
             words: plan.layout.words as usize,
+            marks: plan.layout.marks(),
             size: bytes.len(),
         })
     }
@@ -152,17 +155,21 @@ impl Code {
         }
     }
 
-    /// Goes on with a replay until it is where it is to stop, or its rows are full.
+    /// Continues a replay up to its stop or its end, or until its rows are full.
+    ///
+    /// Does nothing if the slab or the replay is not of the plan.
     pub fn replay(&self, slab: &mut [u64], replay: &mut Replay<'_>) {
-        let Some(shown) = replay.shown.table(self.words) else {
+        let Some(shown) = replay.shown.table(self.words, self.marks) else {
             return;
         };
-        if slab.len() != self.words || replay.is_there() || replay.is_full() {
+        if slab.len() != self.words || replay.is_at_stop() || replay.is_full() {
             return;
         }
         let changes = replay.changes.as_ptr_range();
-        let stop = replay.stop.saturating_add(1);
-        let end = replay.end.min(stop);
+        let (end, stop) = match replay.stop < replay.end {
+            true => (replay.stop + 1, replay.stop + 1),
+            false => (replay.end, NEVER),
+        };
         let (phase, left, arrival) = match replay.settled {
             true => {
                 let arrival = replay.held_until().min(end);
@@ -183,12 +190,13 @@ impl Code {
             stop,
         };
         // SAFETY: see `call` for the slab. The tables belong to this call alone. The code reads
-        // changes from `next` up to `last`, and bounds their ports. It reads `shown` at the number
-        // of a watched word and at the places that stand in it, and the slab at its slots: `Shown`
-        // has one place for each watched word of a plan with slabs of this length, and all places
-        // and slots are within bounds. It writes a row only where one with all words has room:
-        // here as `is_full` says, then as it compares with `last_row`; each entry of `shown` is in
-        // the list of one watched word, whose mark is cleared, so it is written once in a row.
+        // changes from `next` up to `last`, and bounds their ports. It reads `shown` at the numbers
+        // of change marks, at the places found there, and the slab at the slots found there:
+        // `Shown::table` says that all of them are within bounds, whatever stands in the slab. It
+        // writes a row only if there is room for one with all entries: `is_full` was checked above
+        // for the first row, and the code compares with `last_row` after each. An entry of `shown`
+        // is in the list of one mark, and each mark is read once for a row, so that no entry is
+        // written twice in it.
         let left = unsafe { self.call(slab, phase, left, &mut tables) };
         let words = (tables.row as usize).wrapping_sub(rows as usize) / size_of::<u64>();
         let made = (tables.next as usize).wrapping_sub(changes.start as usize);

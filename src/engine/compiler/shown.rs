@@ -1,4 +1,5 @@
-//! Replay in machine code: input changes from a table, rows of changed words to another one.
+//! Replay in machine code: reads input changes from a table, and writes rows of changed words to
+//! another one.
 
 use super::emit::{Changes, Word};
 use super::flow::Flow;
@@ -7,29 +8,33 @@ use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{Block, InstBuilder, Value};
 use std::mem::offset_of;
 
-/// Tables of a replay, and the places in them; machine code reads and writes it.
+/// Tables of a replay and positions in them, which machine code reads and writes.
 pub(super) struct Tables {
-    /// Change to come, and the end of the changes.
+    /// Next change, and the end of the changes.
     pub next: *const InputChange,
     pub last: *const InputChange,
-    /// Place of the next row, and the last place from which there is room for one with all words.
+    /// Place of the next row, and the last place at which a row with all entries has room.
     pub row: *mut u64,
     pub last_row: *mut u64,
-    /// [`Shown`](crate::engine::replay::Shown) words.
+    /// Table of [`Shown`](crate::engine::replay::Shown).
     pub shown: *const u64,
-    /// Next tick that is entered from outside of the loop of ticks: one with changes, or `end`.
+    /// Next arrival: the next tick with changes, or `end`.
     pub arrival: u64,
+    /// Tick at which the code returns.
     pub end: u64,
-    /// If the next arrival is here, the tick before it is left settled.
+    /// Arrival before which the code returns, with the last tick settled; or [`NEVER`].
     pub stop: u64,
 }
 
-/// Result of a replay that has come to its end.
+/// `stop` of a replay that runs to its end. No tick arrives at 0.
+pub(super) const NEVER: u64 = 0;
+
+/// Result of a replay that has reached its end.
 pub(super) const ENDED: u64 = u64::MAX;
 
 impl Flow<'_> {
-    /// Emits the beginning of the tick at which ticks arrive: makes the changes of input ports, and
-    /// enters `settle` with the number of ticks up to the next arrival, or `exit` at the end.
+    /// Emits an arrival: changes the input ports, and enters `settle` with the number of ticks up to
+    /// the next arrival. Leaves for `exit` at the end.
     pub fn arrive(&mut self, settle: Block, exit: Block) {
         let layout = &self.plan.layout;
         let tables = self.tables;
@@ -70,6 +75,9 @@ impl Flow<'_> {
         let behind = e.ins().iadd_imm_s(next, size_of::<InputChange>() as i64);
         let mut targets: Vec<Block> = layout.inputs.iter().map(|_| e.block()).collect();
         targets.push(e.block());
+        // A branch reads 32 bits of a number.
+        let ports = e.number(layout.inputs.len() as u64);
+        let port = e.ins().umin(port, ports);
         e.branch_to(port, &targets);
         for (&slot, &target) in layout.inputs.iter().zip(&targets) {
             e.begin(target);
@@ -122,7 +130,7 @@ impl Flow<'_> {
 
         let e = &mut self.emitter;
         let none = e.ins().icmp(IntCC::Equal, end, first);
-        let (keep, go_on, full) = (e.block(), e.block(), e.block());
+        let [keep, go_on, full] = std::array::from_fn(|_| e.block());
         e.branch(none, go_on, keep);
         e.begin(keep);
         let arrival = e.load_at(tables, offset_of!(Tables, arrival));
@@ -155,14 +163,7 @@ impl Flow<'_> {
         let (words, word, end) = e.block_with_two();
         let (marks, left, place) = e.block_with_two();
         let (list, entry, to) = e.block_with_two();
-        let (next_word, take, next_mark, mark, write, done) = (
-            e.block(),
-            e.block(),
-            e.block(),
-            e.block(),
-            e.block(),
-            e.block(),
-        );
+        let [next_word, take, next_mark, mark, write, done] = std::array::from_fn(|_| e.block());
         e.jump_with_two(words, none, first);
 
         e.begin(words);

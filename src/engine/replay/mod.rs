@@ -38,9 +38,11 @@ impl<'r> ReplayTick<'r> {
 /// Shown leaves of a plan.
 #[derive(Debug, Clone)]
 pub(super) struct Shown {
-    /// By watched word: the place of its first entry in this table. The entries follow: a slot,
-    /// the index of a leaf that shows it, and the place of the word's next entry. Place 0 is none.
+    /// By change mark: the place of its first entry in this table. The entries follow: a slot, the
+    /// index of a leaf that shows it, and the place of the mark's next entry. Place 0 is none.
     table: Vec<u64>,
+    /// Number of change marks, with the unused ones of their last word.
+    marks: usize,
     /// Number of words of a slab.
     #[cfg(feature = "jit")]
     words: usize,
@@ -50,8 +52,8 @@ impl Shown {
     /// Number of words of an entry.
     const ENTRY: usize = 3;
 
-    /// Returns the leaves; `None` if one of them has no change mark of its own, as a word of a
-    /// memory and a leaf that is not watched.
+    /// Returns the table of some leaves. Returns `None` if one of them has no change mark of its
+    /// own: a word of a memory, or a leaf that is not watched.
     fn of(layout: &Layout, leaves: &[usize]) -> Option<Self> {
         let mut bits: FxHashMap<usize, usize> = FxHashMap::default();
         for (bit, watched) in layout.watched.iter().enumerate() {
@@ -59,8 +61,10 @@ impl Shown {
                 bits.extend(watched.leaves.iter().map(|&leaf| (leaf as usize, bit)));
             }
         }
+        let marks = layout.marks();
         let mut shown = Shown {
-            table: vec![0; layout.watched.len()],
+            table: vec![0; marks],
+            marks,
             #[cfg(feature = "jit")]
             words: layout.words as usize,
         };
@@ -78,32 +82,32 @@ impl Shown {
         Some(shown)
     }
 
-    /// Returns the table, for a slab of this number of words: its entries are within it, and so are
-    /// their slots within the slab.
+    /// Returns the table if it was made for slabs of `words` words with `marks` change marks. Every
+    /// mark has a place in it, all places are within it, and all slots are within the slab.
     #[cfg(feature = "jit")]
-    pub fn table(&self, words: usize) -> Option<&[u64]> {
-        (words == self.words).then_some(&self.table)
+    pub fn table(&self, words: usize, marks: usize) -> Option<&[u64]> {
+        ((words, marks) == (self.words, self.marks)).then_some(&self.table)
     }
 
     /// Returns the number of words of a row with all leaves.
-    pub fn row(&self, layout: &Layout) -> usize {
-        2 + 2 * (self.table.len() - layout.watched.len()) / Shown::ENTRY
+    fn row(&self) -> usize {
+        2 + 2 * (self.table.len() - self.marks) / Shown::ENTRY
     }
 }
 
-/// Replay under way: position, changes to come, rows that were written.
+/// State of a replay: current tick, remaining changes, and rows.
 #[derive(Debug)]
 pub(crate) struct Replay<'r> {
-    /// Changes to come, in the order of their ticks.
+    /// Remaining changes, in the order of their ticks.
     pub(super) changes: &'r [InputChange],
     pub(super) shown: Shown,
     /// Current tick.
     pub(super) tick: u64,
     /// True if the nets of this tick are settled and its row is written.
     pub(super) settled: bool,
-    /// Tick in which the replay ends, not settled.
+    /// Tick after the last one.
     pub(super) end: u64,
-    /// Tick in which a backend returns when it is settled.
+    /// Tick in which a backend returns as soon as the tick is settled.
     pub(super) stop: u64,
     /// Rows: tick, number of words that follow, pairs of an index and a word.
     pub(super) rows: Vec<u64>,
@@ -114,9 +118,8 @@ pub(crate) struct Replay<'r> {
 }
 
 impl<'r> Replay<'r> {
-    /// Creates a replay of the ticks from this one of an engine up to one that is not replayed.
-    /// Returns `None` if a leaf has no change mark of its own: a word of a memory, or a leaf that
-    /// is not watched.
+    /// Creates a replay of `ticks`, which begin with the current tick of the engine. Returns `None` if
+    /// a leaf has no change mark of its own: a word of a memory, or a leaf that is not watched.
     pub fn new(
         engine: &Engine,
         changes: &'r [InputChange],
@@ -135,7 +138,7 @@ impl<'r> Replay<'r> {
     ) -> Option<Self> {
         let layout = &engine.program.plan.layout;
         let shown = Shown::of(layout, leaves)?;
-        let row = shown.row(layout);
+        let row = shown.row();
         Some(Replay {
             changes,
             shown,
@@ -164,8 +167,8 @@ impl<'r> Replay<'r> {
         self.tick >= self.end
     }
 
-    /// True if a backend has come to the tick in which it is to return.
-    pub(super) fn is_there(&self) -> bool {
+    /// True if this is the tick in which a backend returns.
+    pub(super) fn is_at_stop(&self) -> bool {
         self.is_over() || self.settled && self.tick >= self.stop
     }
 
@@ -182,7 +185,7 @@ impl<'r> Replay<'r> {
 
     /// Passes all rows to `see`, and removes them.
     #[inline]
-    pub fn take_rows(&mut self, mut see: impl FnMut(ReplayTick<'_>)) {
+    fn take_rows(&mut self, mut see: impl FnMut(ReplayTick<'_>)) {
         let mut rows = &self.rows[..self.used];
         while let [tick, words, rest @ ..] = rows {
             let (pairs, others) = rest.split_at(*words as usize);
@@ -236,8 +239,8 @@ impl<'r> Replay<'r> {
 }
 
 impl Engine {
-    /// Goes on with a replay until `stop` is settled, at least one tick if it is settled, or until
-    /// the end. Passes the rows to `see`, at the latest when it returns.
+    /// Continues a replay until `stop` is settled, or to the end. A settled tick is always left.
+    /// All rows are passed to `see`.
     pub(crate) fn replay(
         &mut self,
         replay: &mut Replay<'_>,
@@ -245,13 +248,13 @@ impl Engine {
         mut see: impl FnMut(ReplayTick<'_>),
     ) {
         replay.stop = stop.max(replay.tick + u64::from(replay.settled));
-        while !replay.is_there() {
+        while !replay.is_at_stop() {
             self.run(replay);
             replay.take_rows(&mut see);
         }
     }
 
-    /// Jumps over idle ticks from this settled one on, if a search for them is due.
+    /// Jumps over idle ticks, this settled one included, if a search for them is due.
     pub(crate) fn replay_forward(&mut self, replay: &mut Replay<'_>) {
         let gone = self.forward(replay.held_until() - replay.tick);
         if gone > 0 {

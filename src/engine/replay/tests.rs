@@ -165,9 +165,8 @@ proptest! {
     }
 }
 
-/// Rows with all of several leaves that one word shows, in a table that is full after each.
-#[test]
-fn leaves_of_one_word_are_shown_each_by_its_index() {
+/// Input port of 8 bits, which two leaves show, and a constant.
+fn wire() -> Arc<Program> {
     let node = |op| Node {
         op,
         width: 8,
@@ -183,20 +182,34 @@ fn leaves_of_one_word_are_shown_each_by_its_index() {
         leaves: vec![Place::Input(0), Place::Node(0), Place::Node(1)],
         ..Flat::default()
     });
+    Arc::new(Program::planned(&flat, Watch::Leaves(&[0, 1, 2]), &[]))
+}
+
+/// Interpreted and, if there is a compiler, compiled.
+fn engines(program: &Arc<Program>) -> [Engine; 2] {
+    let mut compiled = Engine::new(program.clone());
+    compiled.compile();
+    [Engine::new(program.clone()), compiled]
+}
+
+fn change(tick: u64, port: usize, word: u64) -> InputChange {
+    InputChange { tick, port, word }
+}
+
+/// The table of rows is full after each row. The change of tick 5 changes nothing, and ports that
+/// do not exist are left out.
+#[test]
+fn leaves_of_one_word_are_shown_each_by_its_index() {
     let shown = [1, 2, 0, 1, 99];
-    let program = Arc::new(Program::planned(&flat, Watch::Leaves(&[0, 1, 2]), &[]));
-    let change = |tick, word| InputChange {
-        tick,
-        port: 0,
-        word,
-    };
-    // The word of tick 5 is the one that is there.
-    let changes = [change(1, 3), change(2, 4), change(5, 4), change(9, 0)];
-    for compiled in [false, true] {
-        let mut engine = Engine::new(program.clone());
-        if compiled {
-            engine.compile();
-        }
+    let changes = [
+        change(1, 0, 3),
+        change(2, 0, 4),
+        change(5, 0, 4),
+        change(6, 1, 5),
+        change(7, 1 << 32, 6),
+        change(9, 0, 0),
+    ];
+    for mut engine in engines(&wire()) {
         let replay = Replay::with_rows(&engine, &changes, 0..10, &shown, 0);
         let mut replay = replay.expect("all are watched");
         assert_eq!(replay.rows.len(), 2 + 2 * 3);
@@ -209,5 +222,20 @@ fn leaves_of_one_word_are_shown_each_by_its_index() {
         let row = |tick, word| (tick, vec![(0, word), (2, word), (3, word)]);
         assert_eq!(rows, [row(1, 3), row(2, 4), row(9, 0)]);
         assert_eq!((replay.tick(), replay.is_settled()), (10, false));
+    }
+}
+
+#[test]
+fn the_last_of_all_ticks_is_replayed() {
+    let changes = [change(u64::MAX - 2, 0, 3), change(u64::MAX - 1, 0, 4)];
+    for mut engine in engines(&wire()) {
+        let replay = Replay::new(&engine, &changes, u64::MAX - 9..u64::MAX, &[0]);
+        let mut replay = replay.expect("all are watched");
+        let mut rows = Vec::new();
+        engine.replay(&mut replay, u64::MAX - 1, |now| rows.push(now.tick));
+        assert_eq!(rows, [u64::MAX - 2, u64::MAX - 1]);
+        assert!(replay.is_settled());
+        engine.replay(&mut replay, u64::MAX, |_| panic!("nothing changes"));
+        assert_eq!((replay.tick(), replay.is_settled()), (u64::MAX, false));
     }
 }

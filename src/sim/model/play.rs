@@ -5,7 +5,7 @@ use super::{Handle, Model, ModelError};
 use crate::engine::InputChange;
 use crate::netlist::Kind;
 
-/// Ticks of which the changes of input ports are listed at a time.
+/// Number of ticks whose input changes are listed at a time.
 const LISTED: usize = 1 << 16;
 
 impl Model {
@@ -125,14 +125,14 @@ impl Model {
     }
 }
 
-/// Repeats the last value of a column up to a tick.
+/// Repeats the last value of a column until it has `ticks` values.
 #[inline]
 fn hold(column: &mut Vec<u64>, ticks: usize) {
     let last = column.last().copied().unwrap_or_default();
     column.resize(ticks, last);
 }
 
-/// Returns a word with its sign in the bits above, of which there are so many.
+/// Extends the sign of a word into the `above` bits above it.
 #[inline]
 fn extended(word: u64, above: u32) -> u64 {
     ((word << above) as i64 >> above) as u64

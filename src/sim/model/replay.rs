@@ -1,21 +1,21 @@
-//! Replays: runs with a table of changes of input ports, in which changes of signals are shown.
+//! Replays: runs with a table of input changes, which show the changes of chosen signals.
 
 use super::run::Receiver;
 use super::{Handle, Model, ModelError};
 use crate::engine::{InputChange, Replay, ReplayTick};
 
-/// Ticks from which on shown signals are watched.
+/// Least number of ticks for which shown signals are watched.
 pub(super) const LONG: u64 = 16;
 
 impl Model {
     /// Replays `ticks` ticks with recorded changes of input ports, and shows the ticks in which one
-    /// of the signals in `shown` has changed. All of this runs in compiled code, so that it is the
-    /// fastest way to get every value of some signals.
+    /// of the signals in `shown` has changed. Compiled code reads the changes and finds these ticks,
+    /// so that this is the fastest way to get every value of a few signals.
     ///
     /// The first tick is shown with all signals. After that, signals hold their values from one
     /// shown tick to the next.
     ///
-    /// Changes are sorted by tick, and change a port once in a tick. Ticks of changes are those of
+    /// Changes are sorted by tick, and change a port at most once in a tick. Their ticks are those of
     /// the model. Changes before its current tick are left out, so that a replay can be cut into
     /// pieces with the same table.
     ///
@@ -34,7 +34,8 @@ impl Model {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// Words of memories can be shown too, at the cost of a comparison in each tick.
+    /// A replay that shows a word of a memory, or that writes waves, is slower: it goes tick by tick
+    /// and compares all shown signals.
     ///
     /// # Errors
     /// Returns an error if a handle is of another circuit, or if a change is not in order, has no
@@ -97,7 +98,7 @@ impl Model {
         Ok(())
     }
 
-    /// Replays checked changes, and passes all ticks to the tap.
+    /// Replays checked changes, and passes each tick to the tap, if there is one.
     pub(super) fn replay_tapped(
         &mut self,
         ticks: u64,
@@ -137,7 +138,7 @@ impl Model {
         }
     }
 
-    /// Replays with tables on both sides.
+    /// Replays many ticks at a time.
     fn replay_rows(
         &mut self,
         mut replay: Replay<'_>,
@@ -149,7 +150,7 @@ impl Model {
             return;
         }
         // The first tick shows all leaves, whatever has changed.
-        self.go_on_with(&mut replay, self.tick, |_| {});
+        self.continue_replay(&mut replay, self.tick, |_| {});
         let words = leaves.iter().map(|&leaf| self.engine.leaf(leaf));
         let known = words
             .enumerate()
@@ -165,12 +166,17 @@ impl Model {
                 }
                 false => u64::MAX,
             };
-            self.go_on_with(&mut replay, stop, &mut see);
+            self.continue_replay(&mut replay, stop, &mut see);
         }
     }
 
-    /// Goes on with a replay until `stop` is settled, or to the end.
-    fn go_on_with(&mut self, replay: &mut Replay<'_>, stop: u64, see: impl FnMut(ReplayTick<'_>)) {
+    /// Continues a replay until `stop` is settled, or to the end.
+    fn continue_replay(
+        &mut self,
+        replay: &mut Replay<'_>,
+        stop: u64,
+        see: impl FnMut(ReplayTick<'_>),
+    ) {
         self.engine.replay(replay, stop, see);
         (self.tick, self.settled) = (replay.tick(), replay.is_settled());
     }

@@ -95,17 +95,18 @@ impl<C: Circuit> Simulator<C> {
     }
 
     /// Replays `ticks` ticks with recorded changes of input ports, and shows the ticks in which one
-    /// of the leaves `shown` has changed. All of this runs in compiled code, so that it is the
-    /// fastest way to get every value of some signals. `now.changes()` gives a leaf by its index
-    /// in `shown`.
+    /// of the leaves in `shown` has changed. Compiled code reads the changes and finds these ticks,
+    /// so that this is the fastest way to get every value of a few signals. `now.changes()` returns
+    /// each leaf by its index in `shown`.
     ///
     /// The first tick is shown with all leaves. After that, leaves hold their values from one
-    /// shown tick to the next. Leaves that are not [watched](Self::watching), and words of
-    /// memories, cost a comparison in each tick. A leaf that the circuit does not have is never
-    /// shown.
+    /// shown tick to the next. A leaf that the circuit does not have is never shown. If a leaf is
+    /// not [watched](Self::watching) or is a word of a memory, or if a function
+    /// [receives each tick](Self::each_tick), the replay is slower: it goes tick by tick and
+    /// compares all leaves.
     ///
-    /// Changes are sorted by tick, and change a port once in a tick. Ticks of changes are those of
-    /// the simulator. Changes before its current tick are left out, so that a replay can be cut
+    /// Changes are sorted by tick, and change a port at most once in a tick. Their ticks are those
+    /// of the simulator. Changes before its current tick are left out, so that a replay can be cut
     /// into pieces with the same table.
     ///
     /// ```
@@ -138,8 +139,8 @@ impl<C: Circuit> Simulator<C> {
 
     /// Replays like [`replay`](Self::replay), but jumps over idle ticks, as
     /// [`fast_forward`](Self::fast_forward) does. Every change of an output port and of a leaf that
-    /// was [watched](super::Watcher::at) by its place is shown. Of other leaves, values within idle ticks
-    /// are left out.
+    /// was [watched](super::Watcher::at) by its place is shown. Of other leaves, values within idle
+    /// ticks are left out.
     ///
     /// ```
     /// use motion_rtl::circuits::blocks::EnableCounter;
