@@ -35,22 +35,34 @@ pub struct Narrower {
     pub refuted: Option<Vec<(String, u64)>>,
 }
 
+impl Narrower {
+    /// True if wider circuits are not tried.
+    fn is_known(&self, was_proved: bool) -> bool {
+        self.refuted.is_some() || self.proved.is_some() && !was_proved
+    }
+}
+
 impl Entry {
-    /// Proves a property of the full circuit, some keys changed, or of a part of it, at narrower
-    /// widths. All widths grow together from one bit up, until the property is refuted or no longer
-    /// proved; `limit` is the time of a processor for each property.
+    /// Proves properties of the full circuit, some keys changed, or of parts of it, at narrower
+    /// widths; each is given by the path of the part and its name. All widths grow together from
+    /// one bit up, until each property is refuted or no longer proved.
+    ///
+    /// `limit` is the time of a processor for each property at each width. No width is begun after
+    /// twice this time for each of `asked`.
     pub fn narrower(
         &self,
         pairs: &[Pair],
-        (part, property): (Option<&str>, &str),
+        asked: &[(Option<&str>, &str)],
         limit: Duration,
-    ) -> Narrower {
+    ) -> Vec<Narrower> {
         let full = self.widths(Base::Full, pairs);
         let most = full.iter().map(|(_, bits)| *bits).max().unwrap_or(1);
         let start = ThreadTime::now();
-        let mut found = Narrower::default();
+        let time = limit.saturating_mul(2 * asked.len() as u32);
+        let mut found = vec![Narrower::default(); asked.len()];
+        let mut open: Vec<usize> = (0..asked.len()).collect();
         for greatest in 1..most {
-            if start.elapsed() > 2 * limit {
+            if open.is_empty() || start.elapsed() > time {
                 break;
             }
             let widths: Vec<_> = full
@@ -67,18 +79,21 @@ impl Entry {
             let Ok(concluded) = circuit.induct(limit) else {
                 continue;
             };
-            let mut concluded = concluded
-                .iter()
-                .filter(|it| it.property == property && it.part.as_deref() == part);
-            match concluded.next().map(|it| &it.conclusion) {
-                Some(Conclusion::Proof { .. }) => found.proved = Some(widths),
-                Some(Conclusion::Refuted(_)) => {
-                    found.refuted = Some(widths);
-                    break;
+            open.retain(|&index| {
+                let (part, property) = asked[index];
+                let mut concluded = concluded
+                    .iter()
+                    .filter(|it| it.property == property && it.part.as_deref() == part);
+                let found = &mut found[index];
+                let conclusion = concluded.next().map(|it| &it.conclusion);
+                let is_proved = conclusion.is_some_and(Conclusion::is_proved);
+                if is_proved {
+                    found.proved = Some(widths.clone());
+                } else if let Some(Conclusion::Refuted(_)) = conclusion {
+                    found.refuted = Some(widths.clone());
                 }
-                _ if found.proved.is_some() => break,
-                _ => {}
-            }
+                !found.is_known(is_proved)
+            });
         }
         found
     }

@@ -179,8 +179,8 @@ fn what_is_too_wide_does_not_stop_the_others() {
     );
     let told = |name: &str| {
         format!(
-            "{name} is too wide for a proof by exhaustion; allowed: its blocks; what is tested of \
-             it stands in its note\n"
+            "{name} is too wide for a proof by exhaustion; allowed: its blocks, or --full for what \
+             it and its parts state; what is tested of it stands in its note\n"
         )
     };
     assert_eq!(

@@ -31,9 +31,13 @@ fn blocks(text: &str, language: &str) -> Vec<Vec<String>> {
 fn dependencies() -> BTreeMap<String, bool> {
     let manifest: toml::Table = read("Cargo.toml").parse().expect("Cargo.toml is TOML");
     let mut all = BTreeMap::new();
-    for (key, only_tests) in [("dependencies", false), ("dev-dependencies", true)] {
-        let names = manifest[key].as_table().expect("a table").keys();
-        all.extend(names.map(|name| (name.clone(), only_tests)));
+    let of_systems = manifest["target"].as_table().expect("a table").values();
+    for part in of_systems.chain([&toml::Value::Table(manifest.clone())]) {
+        for (key, only_tests) in [("dependencies", false), ("dev-dependencies", true)] {
+            let names = part.get(key).and_then(toml::Value::as_table);
+            let names = names.into_iter().flat_map(toml::Table::keys);
+            all.extend(names.map(|name| (name.clone(), only_tests)));
+        }
     }
     all
 }

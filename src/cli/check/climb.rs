@@ -40,7 +40,7 @@ pub fn run(
     let bars = Bars::new(proofs.len());
     let out = Waves::new(out);
     let rows = proofs.into_par_iter().map(|task| {
-        let line = bars.line(task);
+        let line = bars.line(task.circuit());
         let mut rows = Vec::new();
         let limits = Limits {
             states,

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 
 /// Problem of a circuit that is neither proved nor swept, and what is done instead.
 pub const TOO_WIDE: &str = "is too wide for a proof by exhaustion";
-pub const ITS_BLOCKS: &str = "its blocks; what is tested of it stands in its note";
+pub const ITS_BLOCKS: &str = "its blocks, or --full for what it and its parts state; what is tested of it stands in its note";
 
 /// Arguments of the command that the report answers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

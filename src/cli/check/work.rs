@@ -4,7 +4,7 @@ use super::report::{Ended, Kind, Row};
 use super::shard::Shard;
 use super::tasks::{self, Task};
 use crate::cli::written::Written;
-use crate::cli::{Failure, threads};
+use crate::cli::{Failure, print, threads};
 use indicatif::{HumanCount, MultiProgress, ProgressBar, ProgressStyle};
 use motion_rtl::check::{CheckError, Proof};
 use motion_rtl::registry::{AnyCircuit, AnySweep, Base, ProofSearch, Verdict};
@@ -29,13 +29,19 @@ impl Bars {
         Bars { lines, all }
     }
 
-    pub fn line(&self, task: &Task) -> ProgressBar {
+    /// Adds a line for a circuit.
+    pub fn line(&self, circuit: &'static str) -> ProgressBar {
         let line = self.lines.add(ProgressBar::new_spinner());
         if let Ok(style) = ProgressStyle::with_template("{spinner} {prefix}: {msg}") {
             line.set_style(style);
         }
-        line.set_prefix(task.circuit());
+        line.set_prefix(circuit);
         line
+    }
+
+    /// Prints a text above the bars.
+    pub fn print(&self, text: &str) -> Result<(), Failure> {
+        self.lines.suspend(|| print(text))
     }
 }
 
@@ -75,7 +81,7 @@ pub fn run(tasks: &[Task], shard: Shard, limit: u32, out: &Path) -> Result<Vec<R
         until: None,
     };
     let done = |(index, task): (usize, &Task)| {
-        let line = bars.line(task);
+        let line = bars.line(task.circuit());
         let row = row(task, shard, limits, &out, &line);
         line.finish_and_clear();
         bars.all.inc(1);
@@ -253,7 +259,11 @@ fn broken(row: Row, report: &str, waves: Result<Vec<PathBuf>, RunError>, out: &W
     };
     Row {
         ended: Ended::Broken,
-        fault: Some(format!("{}: {report}\nwaves: {waves}", row.circuit)),
+        fault: Some(format!(
+            "{}: {}\nwaves: {waves}",
+            row.circuit,
+            report.trim_end()
+        )),
         ..row
     }
 }

@@ -2,6 +2,7 @@
 
 mod report;
 
+use super::work::Bars;
 use crate::cli::chosen::{self, entries};
 use crate::cli::written::Written;
 use crate::cli::{Failure, json, print, threads};
@@ -18,7 +19,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Proves the properties of the asked circuits. Unless the report is asked for as JSON, the rows of
-/// a circuit are printed as soon as those of the circuits before it are.
+/// a circuit are printed as soon as they are there.
 pub fn run(asked: Asked, out: &Path, as_json: bool) -> Result<FullReport, Failure> {
     if asked.circuits.is_empty() && !asked.changes.is_empty() {
         return Err(chosen::no_circuit(&asked.changes, "check"));
@@ -42,23 +43,26 @@ pub fn run(asked: Asked, out: &Path, as_json: bool) -> Result<FullReport, Failur
         list: Written::read(out),
         limit: Duration::from_secs(asked.limit_seconds),
     };
-    let printed = Mutex::new(InOrder::default());
-    if !as_json {
-        print(&report::heading())?;
-    }
+    let bars = Bars::new(tasks.len());
+    let heading = Mutex::new(report::heading());
     // A bridge hands the tasks out in their order.
     let all = tasks.iter().enumerate().par_bridge().map(|(index, task)| {
+        let line = bars.line(task.entry.name);
+        line.set_message("at full width");
         let rows = work.rows(task)?;
-        if !as_json {
-            let rows = rows.iter().flatten();
-            let text = rows.map(|row| row.text(&asked.changes)).collect();
-            // A thread that panicked ends the program.
-            let mut printed = printed.lock().unwrap_or_else(PoisonError::into_inner);
-            print(&printed.add(index, text))?;
+        line.finish_and_clear();
+        bars.all.inc(1);
+        if let Some(rows) = &rows
+            && !as_json
+        {
+            let text: String = rows.iter().map(|row| row.text(&asked.changes)).collect();
+            let mut heading = heading.lock().unwrap_or_else(PoisonError::into_inner);
+            bars.print(&(std::mem::take(&mut *heading) + &text))?;
         }
         Ok((index, rows))
     });
     let mut all = all.collect::<Result<Vec<_>, Failure>>()?;
+    bars.all.finish_and_clear();
     all.sort_by_key(|(index, _)| *index);
     let (mut rows, mut without) = (Vec::new(), Vec::new());
     for (task, (_, of)) in tasks.iter().zip(all) {
@@ -129,16 +133,29 @@ impl Work<'_> {
                 }
                 _ => {}
             }
-            if row.full_width_by.is_undecided() {
-                let of = (row.part.as_deref(), &row.property[..]);
-                let narrower = task.entry.narrower(&task.pairs, of, self.limit);
-                let widths = |of: Option<Vec<(String, u64)>>| Some(of?.into_iter().collect());
-                row.proved_at = widths(narrower.proved);
-                row.refuted_at = widths(narrower.refuted);
-            }
             row
         });
-        Ok(Some(rows.collect()))
+        let mut rows: Vec<_> = rows.collect();
+        self.narrower(task, &mut rows);
+        Ok(Some(rows))
+    }
+
+    /// Notes the narrower widths at which properties without a result have one.
+    fn narrower(&self, task: &Task, rows: &mut [FullRow]) {
+        let open = rows.iter_mut();
+        let mut open: Vec<_> = open
+            .filter(|row| row.full_width_by.is_undecided())
+            .collect();
+        let asked = open
+            .iter()
+            .map(|row| (row.part.as_deref(), &row.property[..]));
+        let asked: Vec<_> = asked.collect();
+        let found = task.entry.narrower(&task.pairs, &asked, self.limit);
+        let widths = |of: Option<Vec<(String, u64)>>| Some(of?.into_iter().collect());
+        for (row, narrower) in open.iter_mut().zip(found) {
+            row.proved_at = widths(narrower.proved);
+            row.refuted_at = widths(narrower.refuted);
+        }
     }
 
     /// Returns a report with the paths of its waves. It counts even if they cannot be written.
@@ -155,27 +172,6 @@ impl Work<'_> {
     }
 }
 
-/// Texts that are printed in the order of their numbers.
-#[derive(Debug, Default)]
-struct InOrder {
-    /// Number of the next text.
-    next: usize,
-    waiting: BTreeMap<usize, String>,
-}
-
-impl InOrder {
-    /// Adds a text; returns what can be printed now.
-    fn add(&mut self, index: usize, text: String) -> String {
-        self.waiting.insert(index, text);
-        let mut ready = String::new();
-        while let Some(text) = self.waiting.remove(&self.next) {
-            ready += &text;
-            self.next += 1;
-        }
-        ready
-    }
-}
-
 fn save(found: &Violation, circuit: &dyn AnyModel, out: &Path) -> Result<Vec<PathBuf>, RunError> {
     found.save(&circuit.model()?, Clock::default(), out)
 }
@@ -186,19 +182,4 @@ fn save_induction(
     out: &Path,
 ) -> Result<Vec<PathBuf>, RunError> {
     from.save(&circuit.model()?, Clock::default(), out)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn texts_wait_for_those_before_them() {
-        let mut order = InOrder::default();
-        let mut add = |index, text: &str| order.add(index, text.to_owned());
-        assert_eq!(add(2, "c"), "");
-        assert_eq!(add(0, "a"), "a");
-        assert_eq!(add(1, "b"), "bc");
-        assert_eq!(add(3, "d"), "d");
-    }
 }
