@@ -35,19 +35,12 @@ pub struct Narrower {
     pub refuted: Option<Vec<(String, u64)>>,
 }
 
-impl Narrower {
-    /// True if wider circuits are not tried.
-    fn is_known(&self, was_proved: bool) -> bool {
-        self.refuted.is_some() || self.proved.is_some() && !was_proved
-    }
-}
-
 impl Entry {
     /// Proves properties of the full circuit, some keys changed, or of parts of it, at narrower
     /// widths; each is given by the path of the part and its name. All widths grow together from
     /// one bit up, until each property is refuted or no longer proved.
     ///
-    /// `limit` is the time of a processor for each property at each width. No width is begun after
+    /// `limit` is the processor time for each property at each width. No width is begun after
     /// twice this time for each of `asked`.
     pub fn narrower(
         &self,
@@ -85,14 +78,17 @@ impl Entry {
                     .iter()
                     .filter(|it| it.property == property && it.part.as_deref() == part);
                 let found = &mut found[index];
-                let conclusion = concluded.next().map(|it| &it.conclusion);
-                let is_proved = conclusion.is_some_and(Conclusion::is_proved);
-                if is_proved {
-                    found.proved = Some(widths.clone());
-                } else if let Some(Conclusion::Refuted(_)) = conclusion {
-                    found.refuted = Some(widths.clone());
+                match concluded.next().map(|it| &it.conclusion) {
+                    Some(Conclusion::Proof { .. }) => {
+                        found.proved = Some(widths.clone());
+                        true
+                    }
+                    Some(Conclusion::Refuted(_)) => {
+                        found.refuted = Some(widths.clone());
+                        false
+                    }
+                    _ => found.proved.is_none(),
                 }
-                !found.is_known(is_proved)
             });
         }
         found

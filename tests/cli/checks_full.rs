@@ -153,7 +153,7 @@ fn proofs_may_be_required() {
         "1",
     ];
     let text = bench.succeed(&open);
-    let end = "\na property without a result may need more than 1 s of a processor: \
+    let end = "\na property without a result may need more than 1 s of processor time: \
                --limit-seconds\n";
     assert!(text.ends_with(end), "{text}");
     let property = "tracking: the magnitudes of quadrature and in_phase add up to less than \

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use std::fs;
 use std::process::Command;
 
-/// Address space in KiB, and seconds of a processor: beyond either the program is ended.
+/// Address space in KiB, and seconds of processor time: beyond either the program is ended.
 const MEMORY: u64 = 400_000;
 const SECONDS: u64 = 5;
 

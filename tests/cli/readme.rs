@@ -31,8 +31,9 @@ fn blocks(text: &str, language: &str) -> Vec<Vec<String>> {
 fn dependencies() -> BTreeMap<String, bool> {
     let manifest: toml::Table = read("Cargo.toml").parse().expect("Cargo.toml is TOML");
     let mut all = BTreeMap::new();
-    let of_systems = manifest["target"].as_table().expect("a table").values();
-    for part in of_systems.chain([&toml::Value::Table(manifest.clone())]) {
+    let systems = manifest["target"].as_table().expect("a table").values();
+    let systems = systems.filter_map(toml::Value::as_table);
+    for part in systems.chain([&manifest]) {
         for (key, only_tests) in [("dependencies", false), ("dev-dependencies", true)] {
             let names = part.get(key).and_then(toml::Value::as_table);
             let names = names.into_iter().flat_map(toml::Table::keys);

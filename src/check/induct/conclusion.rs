@@ -19,7 +19,7 @@ pub struct Concluded<R> {
     pub is_helper: bool,
     /// Conclusion.
     pub conclusion: Conclusion<R>,
-    /// Time of a processor for the search, and for the second check of its result.
+    /// Processor time for the search, and for the second check of its result.
     pub time: Duration,
 }
 

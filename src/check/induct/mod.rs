@@ -53,7 +53,7 @@ use prover::{Basis, Found, Results, Task};
 use std::fmt;
 use std::time::Duration;
 
-/// Time of a processor for a property by default.
+/// Processor time for a property by default.
 const LIMIT: Duration = Duration::from_secs(10);
 /// Greatest time for a property: ten years.
 const LONGEST: Duration = Duration::from_secs(10 * 365 * 86_400);
@@ -114,7 +114,7 @@ pub fn induct<C: Circuit>(circuit: &C) -> Induct<'_, C> {
 }
 
 impl<C: Circuit> Induct<'_, C> {
-    /// Limits the time of a processor for each property; 10 seconds by default. A check of its proof
+    /// Limits the processor time for each property; 10 seconds by default. A check of its proof
     /// may take four times as long. The time to unroll the circuit is not limited.
     pub fn limit(mut self, limit: Duration) -> Self {
         self.limit = limit.min(LONGEST);

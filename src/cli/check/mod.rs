@@ -44,7 +44,7 @@ pub struct Arguments {
     /// Proves each property at the circuit's own widths, by induction and a search for invariants.
     #[arg(long, conflicts_with_all = ["limit", "shard"])]
     full: bool,
-    /// Seconds of a processor for each property at full width.
+    /// Seconds of processor time for each property at full width.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, requires = "full", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     limit_seconds: u64,
     /// Fails if a property at full width is neither proved nor refuted: exit code 2.

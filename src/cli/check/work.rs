@@ -47,7 +47,7 @@ impl Bars {
 
 /// Place for the waves of counterexamples.
 pub struct Waves<'a> {
-    directory: &'a Path,
+    pub directory: &'a Path,
     /// Files that `clean` knows.
     list: Written,
 }
@@ -59,6 +59,19 @@ impl<'a> Waves<'a> {
             directory,
             list: Written::read(directory),
         }
+    }
+
+    /// Returns a report with the paths of its waves. It counts even if they cannot be written.
+    pub fn with(&self, report: &str, waves: Result<Vec<PathBuf>, RunError>) -> String {
+        let waves = match waves {
+            Ok(paths) => {
+                self.list.add(paths.iter().map(PathBuf::as_path));
+                let paths = paths.iter().map(|path| path.display().to_string());
+                paths.collect::<Vec<_>>().join(", ")
+            }
+            Err(error) => format!("none: {error}; allowed: another --out, a directory"),
+        };
+        format!("{}\nwaves: {waves}", report.trim_end())
     }
 }
 
@@ -246,24 +259,11 @@ fn sweep(
     })
 }
 
-/// Returns the row of a broken property. The counterexample is reported even if its waves cannot be
-/// written.
+/// Returns the row of a broken property.
 fn broken(row: Row, report: &str, waves: Result<Vec<PathBuf>, RunError>, out: &Waves<'_>) -> Row {
-    let waves = match waves {
-        Ok(paths) => {
-            out.list.add(paths.iter().map(PathBuf::as_path));
-            let paths = paths.iter().map(|path| path.display().to_string());
-            paths.collect::<Vec<_>>().join(", ")
-        }
-        Err(error) => format!("none: {error}; allowed: another --out, a directory"),
-    };
     Row {
         ended: Ended::Broken,
-        fault: Some(format!(
-            "{}: {}\nwaves: {waves}",
-            row.circuit,
-            report.trim_end()
-        )),
+        fault: Some(format!("{}: {}", row.circuit, out.with(report, waves))),
         ..row
     }
 }

@@ -10,7 +10,7 @@ pub(super) const LONG: u64 = 16;
 impl Model {
     /// Replays `ticks` ticks with recorded changes of input ports, and shows the ticks in which one
     /// of the signals in `shown` has changed. Compiled code reads the changes and finds these ticks,
-    /// so that this is the fastest way to get every value of a few signals.
+    /// without a call in each tick.
     ///
     /// The first tick is shown with all signals. After that, signals hold their values from one
     /// shown tick to the next.

@@ -96,8 +96,7 @@ impl<C: Circuit> Simulator<C> {
 
     /// Replays `ticks` ticks with recorded changes of input ports, and shows the ticks in which one
     /// of the leaves in `shown` has changed. Compiled code reads the changes and finds these ticks,
-    /// so that this is the fastest way to get every value of a few signals. `now.changes()` returns
-    /// each leaf by its index in `shown`.
+    /// without a call in each tick. `now.changes()` returns each leaf by its index in `shown`.
     ///
     /// The first tick is shown with all leaves. After that, leaves hold their values from one
     /// shown tick to the next. A leaf that the circuit does not have is never shown. If a leaf is

@@ -2,9 +2,8 @@
 
 mod report;
 
-use super::work::Bars;
+use super::work::{Bars, Waves};
 use crate::cli::chosen::{self, entries};
-use crate::cli::written::Written;
 use crate::cli::{Failure, json, print, threads};
 use motion_rtl::check::{Conclusion, InductError, NotInductive, Violation};
 use motion_rtl::registry::{AnyModel, Base, Entry, Pair};
@@ -38,9 +37,7 @@ pub fn run(asked: Asked, out: &Path, as_json: bool) -> Result<FullReport, Failur
     threads::start()?;
     let start = Instant::now();
     let work = Work {
-        out,
-        // Before the first counterexample: files that are there are not of this command.
-        list: Written::read(out),
+        waves: Waves::new(out),
         limit: Duration::from_secs(asked.limit_seconds),
     };
     let bars = Bars::new(tasks.len());
@@ -103,10 +100,9 @@ struct Task {
     circuit: Box<dyn AnyModel>,
 }
 
-/// What is asked of each circuit.
+/// Proofs of circuits.
 struct Work<'a> {
-    out: &'a Path,
-    list: Written,
+    waves: Waves<'a>,
     limit: Duration,
 }
 
@@ -124,12 +120,12 @@ impl Work<'_> {
             let mut row = FullRow::new(task.entry.name, &widths, &concluded);
             match concluded.conclusion {
                 Conclusion::Refuted(found) => {
-                    let waves = save(&found, &*task.circuit, self.out);
-                    row.report = Some(self.with_waves(&found.to_string(), waves));
+                    let waves = save(&found, &*task.circuit, self.waves.directory);
+                    row.report = Some(self.waves.with(&found.to_string(), waves));
                 }
                 Conclusion::Open { from: Some(from) } => {
-                    let waves = save_induction(&from, &*task.circuit, self.out);
-                    row.report = Some(self.with_waves(&from.to_string(), waves));
+                    let waves = save_induction(&from, &*task.circuit, self.waves.directory);
+                    row.report = Some(self.waves.with(&from.to_string(), waves));
                 }
                 _ => {}
             }
@@ -156,19 +152,6 @@ impl Work<'_> {
             row.proved_at = widths(narrower.proved);
             row.refuted_at = widths(narrower.refuted);
         }
-    }
-
-    /// Returns a report with the paths of its waves. It counts even if they cannot be written.
-    fn with_waves(&self, report: &str, waves: Result<Vec<PathBuf>, RunError>) -> String {
-        let waves = match waves {
-            Ok(paths) => {
-                self.list.add(paths.iter().map(PathBuf::as_path));
-                let paths = paths.iter().map(|path| path.display().to_string());
-                paths.collect::<Vec<_>>().join(", ")
-            }
-            Err(error) => format!("none: {error}; allowed: another --out, a directory"),
-        };
-        format!("{}\nwaves: {waves}", report.trim_end())
     }
 }
 

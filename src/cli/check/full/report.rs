@@ -19,7 +19,7 @@ pub struct Asked {
     pub circuits: Vec<String>,
     /// Changed keys, as on the command line.
     pub changes: Changes,
-    /// Time of a processor for each property in seconds.
+    /// Processor time for each property in seconds.
     pub limit_seconds: u64,
     /// True if a property without a proof is an error.
     pub require_proofs: bool,
@@ -84,7 +84,7 @@ pub struct FullRow {
     pub proved_at: Option<BTreeMap<String, u64>>,
     /// Least widths in bits at which a property without a result is refuted.
     pub refuted_at: Option<BTreeMap<String, u64>>,
-    /// Seconds of a processor for the search and the second check of its result. What properties
+    /// Seconds of processor time for the search and the second check of its result. What properties
     /// share does not count: making the netlist, lemmas.
     pub seconds: f64,
     /// Report of a counterexample, or the state from which an open property would be violated.
@@ -264,7 +264,7 @@ impl FullReport {
         if self.count(FullBy::is_undecided) > 0 {
             let _ = writeln!(
                 text,
-                "a property without a result may need more than {} s of a processor: --limit-seconds",
+                "a property without a result may need more than {} s of processor time: --limit-seconds",
                 self.asked.limit_seconds
             );
         }
