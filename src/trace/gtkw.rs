@@ -113,7 +113,9 @@ impl Save<'_> {
     /// Returns the index of a signal that is in the dump.
     fn at(&self, path: &str) -> Option<usize> {
         let mut leaves = self.layout.leaves.iter().zip(&self.layout.selected);
-        leaves.position(|(leaf, selected)| *selected && within(leaf, ".") == path)
+        leaves.position(|(leaf, selected)| {
+            *selected && path.ends_with(&leaf.name) && within(leaf, ".") == path
+        })
     }
 
     fn window(&mut self, clock: Clock, dump: &str, focus: Range<u64>, overview: &[usize]) {

@@ -137,12 +137,12 @@ impl BrakedBody {
                 let reference = if reverse { -1.0 } else { 1.0 } * speed_counts_per_s;
                 self.approach(reference, self.parameters.acceleration_counts_per_s2, free);
             }
-            false => self.approach(0.0, self.deceleration(), free),
+            false => self.slow_down(free),
         }
         if free < tick {
             self.engaged = true;
             self.rubbed |= self.speed_counts_per_s != 0.0;
-            self.approach(0.0, self.deceleration(), tick - free);
+            self.slow_down(tick - free);
         }
         self.encoder.see(self.position_counts)
     }
@@ -198,6 +198,15 @@ impl BrakedBody {
     fn deceleration(&self) -> f64 {
         let inertia = self.parameters.inertia_kg_m2 * self.load.load_inertia_factor;
         self.friction_nm() / inertia * self.parameters.counts_per_rad()
+    }
+
+    /// Moves for `time_s` seconds, slowed down by friction until it rests.
+    #[inline]
+    fn slow_down(&mut self, time_s: f64) {
+        // A body rests in most ticks, and two divisions take as long as all else in them.
+        if self.speed_counts_per_s != 0.0 {
+            self.approach(0.0, self.deceleration(), time_s);
+        }
     }
 
     /// Moves for `time_s` seconds, with this acceleration until `speed` is reached.
