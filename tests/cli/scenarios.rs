@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 /// Ticks in the machine's dump.
-const MACHINE_SHOWN: i64 = 250_000;
+const MACHINE_SHOWN: i64 = 75_000;
 
 /// Where the crate's own files are.
 const CRATE: &str = env!("CARGO_MANIFEST_DIR");
