@@ -112,4 +112,12 @@ impl Layout {
             slab[(self.dirty + bit / 64) as usize] |= 1 << (bit % 64);
         }
     }
+
+    /// Marks every watched word as changed.
+    pub fn mark(&self, slab: &mut [u64]) {
+        for change in self.changes.iter().flatten() {
+            slab[change.word as usize] |= change.mask;
+        }
+        slab[self.event as usize] = 1;
+    }
 }

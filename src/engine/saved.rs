@@ -21,7 +21,8 @@ impl Engine {
     }
 
     /// Continues from a state of an engine of the same netlist, whatever that engine watches; no
-    /// net is settled then. Returns false, and changes nothing, if the netlist is another one.
+    /// net is settled then, and everything is marked as changed. Returns false, and changes
+    /// nothing, if the netlist is another one.
     pub(crate) fn resume(&mut self, saved: &Saved) -> bool {
         if Arc::ptr_eq(&self.program, &saved.program) {
             self.restore(&saved.slab);
@@ -32,6 +33,7 @@ impl Engine {
         }
         // Blocks that compiled code inlines have no bits that say that they are due.
         self.wake();
+        self.program.plan.layout.mark(&mut self.slab);
         true
     }
 

@@ -40,10 +40,18 @@ impl<C: Circuit, O: Observer<C>> Observer<C> for Without<O> {
     }
 
     fn needs(&self) -> Needs {
-        match self.0.needs() {
-            // The leaves of a model without signals beside it have other numbers.
-            Needs::Leaves(leaves) if !leaves.is_empty() => Needs::All,
-            needs => needs,
+        let needs = self.0.needs();
+        // The leaves of a model without signals beside it have other numbers.
+        match needs.leaves.is_empty() {
+            true => needs,
+            false => Needs::ALL,
+        }
+    }
+
+    fn next_whole(&self, tick: u64) -> u64 {
+        match self.0.needs().leaves.is_empty() {
+            true => self.0.next_whole(tick),
+            false => tick,
         }
     }
 

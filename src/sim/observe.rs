@@ -70,26 +70,39 @@ impl RunError {
 
 /// Signals that an observer reads beyond those that are watched anyway.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Needs {
-    /// All signals.
-    All,
-    /// Leaves of the circuit and of the signals beside it, which are watched too.
-    Leaves(Vec<usize>),
+pub struct Needs {
+    /// True if it reads all signals; see [`Observer::next_whole`].
+    pub all: bool,
+    /// Leaves of the circuit and of the signals beside it, which are watched in every tick.
+    pub leaves: Vec<usize>,
 }
 
 impl Needs {
     /// No signal.
-    pub const NONE: Self = Needs::Leaves(Vec::new());
+    pub const NONE: Self = Needs {
+        all: false,
+        leaves: Vec::new(),
+    };
+
+    /// All signals.
+    pub const ALL: Self = Needs {
+        all: true,
+        leaves: Vec::new(),
+    };
 
     /// Returns what both need.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
-        match (self, other) {
-            (Needs::Leaves(leaves), Needs::Leaves(others)) => {
-                Needs::Leaves([leaves, others].concat())
-            }
-            _ => Needs::All,
+        Needs {
+            all: self.all || other.all,
+            leaves: [self.leaves, other.leaves].concat(),
         }
+    }
+}
+
+impl From<Vec<usize>> for Needs {
+    fn from(leaves: Vec<usize>) -> Self {
+        Needs { all: false, leaves }
     }
 }
 
@@ -97,7 +110,7 @@ impl Needs {
 impl From<bool> for Needs {
     fn from(all: bool) -> Self {
         match all {
-            true => Needs::All,
+            true => Needs::ALL,
             false => Needs::NONE,
         }
     }
@@ -127,7 +140,16 @@ pub trait Observer<C: Circuit> {
 
     /// Returns the signals that are to be [watched](super::Simulator::watching) for the observer.
     fn needs(&self) -> Needs {
-        Needs::All
+        Needs::ALL
+    }
+
+    /// Returns the first tick from `tick` on in which the observer reads all signals, if it
+    /// [needs](Self::needs) all. Until then a run may watch fewer.
+    fn next_whole(&self, tick: u64) -> u64 {
+        match self.needs().all {
+            true => self.next_look(tick),
+            false => u64::MAX,
+        }
     }
 
     /// Receives one tick; `Break` ends the run after this tick's edge.
@@ -164,6 +186,10 @@ impl<C: Circuit, O: Observer<C> + ?Sized> Observer<C> for &mut O {
         (**self).needs()
     }
 
+    fn next_whole(&self, tick: u64) -> u64 {
+        (**self).next_whole(tick)
+    }
+
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         (**self).sample(now)
     }
@@ -181,6 +207,11 @@ impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
 
     fn needs(&self) -> Needs {
         self.as_ref().map_or(Needs::NONE, Observer::needs)
+    }
+
+    fn next_whole(&self, tick: u64) -> u64 {
+        self.as_ref()
+            .map_or(u64::MAX, |observer| observer.next_whole(tick))
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
@@ -204,6 +235,10 @@ macro_rules! together {
 
             fn needs(&self) -> Needs {
                 Needs::NONE$(.and(self.$place.needs()))+
+            }
+
+            fn next_whole(&self, tick: u64) -> u64 {
+                u64::MAX$(.min(self.$place.next_whole(tick)))+
             }
 
             fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {

@@ -69,4 +69,5 @@ mod vhdl;
 #[cfg(unix)]
 mod viewer;
 mod waves_of;
+mod windows;
 mod written;

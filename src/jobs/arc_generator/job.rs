@@ -247,6 +247,7 @@ impl Bench<'_> {
             if let Some(joints) = joints.take() {
                 simulator.show::<Joints>(&JointSignals::of(joints))?;
             }
+            simulator.watch_for(&observer);
             let (command, flow) = simulator.look(&i, &mut *observer, |now| self.take(now, &see))?;
             if let Some(command) = command {
                 each(command);

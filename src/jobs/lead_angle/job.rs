@@ -325,6 +325,7 @@ pub fn play(
             simulator.apply(&i)?;
             stands = true;
         }
+        simulator.watch_for(&observer);
         if observer.looks(bench.played.ticks) {
             simulator.show::<Body>(&BodySignals::of(&body))?;
         }

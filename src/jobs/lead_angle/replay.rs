@@ -230,6 +230,7 @@ pub fn replay(
         effect = i.effect;
         let speed = (position - before) / tick_s;
         before = position;
+        simulator.watch_for(&observer);
         if observer.looks(tick) {
             simulator.show::<Body>(&BodySignals::at(position, speed))?;
         }

@@ -284,6 +284,7 @@ pub fn play_each<const N: usize>(
         [(i.a_x, i.b_x), (i.a_y, i.b_y)] = motors.step(step);
         give(&mut i.orders, bench.push());
         let servos = &motors.plants;
+        simulator.watch_for(&observer);
         if observer.looks(simulator.tick()) {
             simulator.show::<waves::Axes>(&waves::Signals::of(servos))?;
         }

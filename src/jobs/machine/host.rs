@@ -6,6 +6,7 @@
 //! Records are passed to arc generator and trajectory controller as space allows.
 
 use super::program::{Program, Way};
+use super::seen::motors;
 use super::settings::{Correction, Settings};
 use crate::circuits::arc_generator::generator::Segments;
 use crate::circuits::machine::circuit::In;
@@ -88,10 +89,9 @@ impl See {
             lift_busy: watch.at(w.lift_busy),
             sample: watch.at(p.enables.w.sample),
             counts: [w.counts_x, w.counts_y].map(|counts| watch.at(counts)),
-            corrected: [0, 1].map(|axis: usize| {
-                watch.at(p.trajectory_controller.p.axes[axis].p.corrector.q.corrected)
-            }),
-            position: [w.position_x, w.position_y].map(|position| watch.at(position)),
+            corrected: [0, 1]
+                .map(|axis: usize| p.trajectory_controller.p.axes[axis].p.corrector.q.corrected),
+            position: motors(watch),
         }
     }
 }

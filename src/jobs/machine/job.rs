@@ -298,6 +298,7 @@ pub fn play_each(
             around.driven(now)
         });
         around.step(&by, &mut i);
+        simulator.watch_for(&observer);
         if observer.looks(simulator.tick()) {
             simulator.show::<Plants>(&around.signals())?;
         }

@@ -5,7 +5,15 @@ use crate::hdl::At;
 use crate::sim::{Sample, Watcher};
 use std::array::from_fn;
 
-/// Signals of the machine that a job observes.
+/// Returns the counters of the motors' positions. They are not watched, as the jobs read them only
+/// in ticks with a strobe: a run does not stop at every edge of an encoder.
+pub(super) fn motors(watch: &Watcher<'_, Machine>) -> [At<i64>; 2] {
+    let axes = &watch.p.trajectory_controller.p.axes;
+    from_fn(|k| axes[k].p.servo.p.detector.q.position)
+}
+
+/// Signals of the machine that a job observes. Registers that are read only in ticks with a strobe
+/// are not watched.
 pub(super) struct See {
     /// Step and direction of X and Y.
     pub(super) lines: [(At<bool>, At<bool>); 2],
@@ -86,11 +94,11 @@ impl See {
             },
             lift_busy: watch.at(w.lift_busy),
             driven: watch.at(axes[0].w.driven),
-            command: [p.command_join.q.x, p.command_join.q.y].map(|axis| watch.at(axis)),
-            corrected: from_fn(|k| watch.at(axes[k].p.corrector.q.corrected)),
-            model: from_fn(|k| watch.at(axes[k].p.servo.p.model.p.integrators.q.position)),
+            command: [p.command_join.q.x, p.command_join.q.y],
+            corrected: from_fn(|k| axes[k].p.corrector.q.corrected),
+            model: from_fn(|k| axes[k].p.servo.p.model.p.integrators.q.position),
             counts: [w.counts_x, w.counts_y].map(|axis| watch.at(axis)),
-            motor: [w.position_x, w.position_y].map(|axis| watch.at(axis)),
+            motor: motors(watch),
         }
     }
 }

@@ -258,6 +258,7 @@ pub fn play(
     let mut stopped = false;
     while !bench.over() && !stopped {
         let (i, given) = bench.ports();
+        simulator.watch_for(&observer);
         if let Some(motors) = &motors
             && observer.looks(simulator.tick())
         {

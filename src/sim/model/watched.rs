@@ -36,16 +36,19 @@ impl Model {
         let circuit = self.circuit.clone();
         let leaves = [&circuit.ports_out[..], &self.watched].concat();
         let program = circuit.elaborated.program(Watch::Leaves(&leaves));
-        let mut planned = Engine::new(program);
+        let planned = Engine::new(program);
         self.costly = 0;
         match &mut self.narrow {
             Some(narrow) => **narrow = planned,
-            None => {
-                planned.resume(&self.engine.saved());
-                self.engine = planned;
-                self.settled = false;
-            }
+            None => drop(self.exchange(planned)),
         }
+    }
+
+    /// Continues on another engine of the circuit, with the state kept; returns the one before.
+    pub(in crate::sim) fn exchange(&mut self, mut engine: Engine) -> Engine {
+        engine.resume(&self.engine.saved());
+        self.settled = false;
+        std::mem::replace(&mut self.engine, engine)
     }
 
     /// Watches all leaves and passes every tick from this one on to a tap.
@@ -53,20 +56,16 @@ impl Model {
         if !self.engine.program().watches_all() {
             let circuit = self.circuit.clone();
             let all = || circuit.elaborated.program(Watch::All);
-            let mut wide = Engine::new(circuit.all.get_or_init(all).clone());
-            wide.resume(&self.engine.saved());
-            self.narrow = Some(Box::new(std::mem::replace(&mut self.engine, wide)));
-            self.settled = false;
+            let wide = Engine::new(circuit.all.get_or_init(all).clone());
+            self.narrow = Some(Box::new(self.exchange(wide)));
         }
         self.tap = Some(tap);
     }
 
     /// Returns the tap, which receives no more ticks.
     pub(crate) fn end(&mut self) -> Option<Box<dyn Tap>> {
-        if let Some(mut narrow) = self.narrow.take() {
-            narrow.resume(&self.engine.saved());
-            self.engine = *narrow;
-            self.settled = false;
+        if let Some(narrow) = self.narrow.take() {
+            self.exchange(*narrow);
         }
         self.tap.take()
     }

@@ -33,7 +33,13 @@ pub struct Simulator<C: Circuit> {
     known: Arc<Known<C>>,
     /// Buffer for input ports.
     words: Vec<u64>,
+    /// Numbers of the last [`apply`](Self::apply), if no port has been set in another way since.
+    applied: Vec<u64>,
     each: Option<EachTick<C>>,
+    /// Leaves that are watched in every tick, if an observer needs all in some of them.
+    always: Option<Vec<usize>>,
+    /// Engine for the other ticks; see [`watch_for`](Self::watch_for).
+    other: Option<Box<Engine>>,
 }
 
 /// Function that receives every tick.
@@ -48,7 +54,10 @@ impl<C: Circuit> Clone for Simulator<C> {
             model: self.model.clone(),
             known: self.known.clone(),
             words: Vec::new(),
+            applied: Vec::new(),
             each: None,
+            always: self.always.clone(),
+            other: None,
         }
     }
 }
@@ -171,18 +180,19 @@ impl<C: Circuit> Simulator<C> {
         };
         let chosen = choose(&watcher);
         let mut watched = watcher.watched.into_inner();
-        let watch = match needs {
-            Needs::All => Watch::All,
-            Needs::Leaves(leaves) => {
-                watched.extend(leaves);
-                Watch::Leaves(&watched)
-            }
+        watched.extend(needs.leaves);
+        let watch = match needs.all {
+            true => Watch::All,
+            false => Watch::Leaves(&watched),
         };
         let simulator = Simulator {
             model: Model::watching(model, watch, &watched),
             known: Arc::new(known),
             words: Vec::new(),
+            applied: Vec::new(),
             each: None,
+            always: needs.all.then_some(watched),
+            other: None,
         };
         (simulator, chosen)
     }
@@ -229,6 +239,7 @@ impl<C: Circuit> Simulator<C> {
         value: T,
     ) -> Result<(), RunError> {
         let port = port(&self.known.signals().i);
+        self.applied.clear();
         self.model.put(port.leaf(), value.word())
     }
 
@@ -240,6 +251,7 @@ impl<C: Circuit> Simulator<C> {
     pub fn set_port(&mut self, port: usize, word: u64) -> Result<(), RunError> {
         let checked = self.model.ports().check_word(port, word);
         checked.map_err(RunError::at(self.tick()))?;
+        self.applied.clear();
         self.model.drive(port, word);
         Ok(())
     }
@@ -253,9 +265,17 @@ impl<C: Circuit> Simulator<C> {
     pub fn apply(&mut self, i: &C::In<Value>) -> Result<(), RunError> {
         self.words.clear();
         i.words(&mut self.words);
+        // In most ticks of a run, no port changes.
+        if !self.words.is_empty() && self.words == self.applied {
+            return Ok(());
+        }
+        self.applied.clone_from(&self.words);
         let own = self.known.own_ports;
         let bits = self.model.ports().all_bits(own, &mut self.words);
-        bits.map_err(RunError::at(self.tick()))?;
+        if let Err(error) = bits {
+            self.applied.clear();
+            return Err(RunError::at(self.tick())(error));
+        }
         self.model.drive_all(&self.words);
         Ok(())
     }

@@ -1,10 +1,13 @@
 //! Runs of many ticks.
 
 use super::Simulator;
-use crate::engine::{Engine, InputChange, ReplayTick};
+use crate::engine::{Engine, InputChange, ReplayTick, Watch};
 use crate::hdl::{Circuit, Value};
 use crate::sim::{Observer, RunError, Sample, State};
 use std::ops::ControlFlow;
+
+/// Least number of ticks for which exchanging the engine pays.
+const FAR: u64 = 4096;
 
 impl<C: Circuit> Simulator<C> {
     /// Runs `ticks` ticks, or until an observer stops.
@@ -175,10 +178,15 @@ impl<C: Circuit> Simulator<C> {
         see: impl FnMut(ReplayTick<'_>),
     ) -> Result<(), RunError> {
         let Simulator {
-            model, known, each, ..
+            model,
+            known,
+            each,
+            applied,
+            ..
         } = self;
         let checked = model.ports().check_changes(changes);
         checked.map_err(|(tick, error)| RunError::at(tick)(error))?;
+        applied.clear();
         match each {
             None => model.replay_leaves(ticks, changes, shown, jumps, None, see),
             Some(each) => {
@@ -265,6 +273,68 @@ impl<C: Circuit> Simulator<C> {
     /// [looked](Self::look) at.
     pub fn unseen(&self, observer: &impl Observer<C>) -> u64 {
         observer.next_look(self.tick() + 1) - self.tick()
+    }
+
+    /// Watches what `observer` reads from this tick on: all signals if it reads
+    /// [all of this tick](Observer::next_whole), and only those that it needs in every tick if it
+    /// reads all much later or never. The circuit then runs faster. Has no effect if the simulator
+    /// was not made to watch all signals.
+    ///
+    /// Call it before each [look](Self::look), with the observer of the run:
+    ///
+    /// ```
+    /// use motion_rtl::circuits::blocks::EnableCounter;
+    /// use motion_rtl::sim::{Observer, Simulator};
+    /// use motion_rtl::trace::{Clock, Options, Vcd};
+    ///
+    /// let circuit = EnableCounter { width: 16 };
+    /// let options = Options { ticks: 20_000..20_100, only: None };
+    /// let mut vcd = Vcd::new(Vec::new(), &circuit, Clock::default(), &options)?;
+    /// let needs = Observer::<EnableCounter>::needs(&vcd);
+    /// let (mut counter, ()) = Simulator::watching(&circuit, needs, |_| ())?;
+    /// counter.set(|i| i.period, 500)?;
+    /// while counter.tick() < 30_000 {
+    ///     counter.watch_for(&vcd);
+    ///     let in_window = (20_000..20_100).contains(&counter.tick());
+    ///     assert_eq!(counter.watches_all(), in_window);
+    ///     let _ = counter.look_as_set(&mut vcd, |_| ())?;
+    ///     counter.go_on(counter.unseen(&vcd).min(30_000 - counter.tick()));
+    /// }
+    /// # vcd.finish()?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[inline]
+    pub fn watch_for(&mut self, observer: &impl Observer<C>) {
+        if self.always.is_some() {
+            let tick = self.tick();
+            let until = observer.next_whole(tick).saturating_sub(tick);
+            match self.watches_all() {
+                true if until >= FAR => self.exchange(),
+                false if until == 0 => self.exchange(),
+                _ => {}
+            }
+        }
+    }
+
+    /// True if all signals are watched in this tick.
+    pub fn watches_all(&self) -> bool {
+        self.engine().program().watches_all()
+    }
+
+    /// Exchanges the engine that watches all signals for the one that watches few, or back.
+    #[cold]
+    fn exchange(&mut self) {
+        let Some(always) = &self.always else {
+            return;
+        };
+        let watch = match self.watches_all() {
+            true => Watch::Leaves(always),
+            false => Watch::All,
+        };
+        let program = || self.model.elaborated().program_with(watch, always);
+        let other = self.other.take();
+        let other = other.unwrap_or_else(|| Box::new(Engine::new(program())));
+        self.other = Some(Box::new(self.model.exchange(*other)));
     }
 
     /// Advances from a tick that was [looked](Self::look) at, by 1 to `ticks` ticks with constant

@@ -244,13 +244,12 @@ impl<C: Circuit, W: Write> Observer<C> for SeriesFile<'_, W> {
     fn needs(&self) -> Needs {
         let sources = self.axes.iter().flatten().flat_map(Source::watched);
         let clocks = self.plans.iter().map(Plan::clock);
-        Needs::Leaves(
-            self.strobe
-                .into_iter()
-                .chain(clocks)
-                .chain(sources)
-                .collect(),
-        )
+        let leaves = self.strobe.into_iter().chain(clocks).chain(sources);
+        leaves.collect::<Vec<_>>().into()
+    }
+
+    fn next_whole(&self, _: u64) -> u64 {
+        u64::MAX
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {

@@ -2,7 +2,7 @@
 
 use super::*;
 use motion_rtl::engine::{InputError, Watch};
-use motion_rtl::sim::{Elaborated, RunError};
+use motion_rtl::sim::{Elaborated, InputChange, RunError};
 use motion_rtl::trace::{Clock, StimulusFile, replay};
 
 /// Ports in of every kind.
@@ -43,6 +43,34 @@ impl Circuit for Ports {
     fn tick(&self, i: PortsIn, _: PortsReg, _: Nothing) -> (Nothing, PortsReg<Edge>) {
         let shift = i.channel[1].shift;
         (Nothing, PortsReg { shift })
+    }
+}
+
+/// An array of ports and no others.
+#[derive(Debug, Clone)]
+struct Levels;
+
+signals! { for Levels as _c;
+    /// Ports in.
+    pub struct LevelsIn {
+        /// Two bits.
+        levels: [Bit; 2],
+    }
+    /// Registers.
+    pub struct LevelsReg {
+        /// First level.
+        first: Bit,
+    }
+}
+
+impl Circuit for Levels {
+    const NAME: &'static str = "levels";
+    const ABOUT: &'static str = "has an array of ports in";
+    records!(LevelsIn, LevelsReg, Nothing);
+
+    fn tick(&self, i: LevelsIn, _: LevelsReg, _: Nothing) -> (Nothing, LevelsReg<Edge>) {
+        let first = i.levels[0];
+        (Nothing, LevelsReg { first })
     }
 }
 
@@ -134,6 +162,32 @@ fn an_array_has_its_length() {
     i.channel.pop();
     let error = simulator.apply(&i).unwrap_err().to_string();
     assert_eq!(error, "tick 0: 5 words for 7 ports in");
+    let mut simulator = Simulator::new(&Levels).unwrap();
+    let error = simulator.apply(&LevelsIn { levels: vec![] }).unwrap_err();
+    assert_eq!(error.to_string(), "tick 0: 0 words for 2 ports in");
+}
+
+#[test]
+fn inputs_that_are_given_again_replace_those_between() {
+    type Set = fn(&mut Simulator<Ports>) -> Result<(), RunError>;
+    let between: [Set; 4] = [
+        |at| at.set(|i| i.channel[1].shift, 5),
+        |at| at.set_port(3, 5),
+        |at| at.apply(&ports(5, 0)),
+        |at| {
+            let (tick, port, word) = (at.tick(), 3, 5);
+            at.replay(1, &[InputChange { tick, port, word }], &[], |_| {})
+        },
+    ];
+    let mut simulator = Simulator::new(&Ports).unwrap();
+    let shift = simulator.signals().i.channel[1].shift;
+    for set in between {
+        simulator.apply(&ports(7, 0)).unwrap();
+        set(&mut simulator).unwrap();
+        assert_eq!(simulator.get(shift), 5);
+        simulator.apply(&ports(7, 0)).unwrap();
+        assert_eq!(simulator.get(shift), 7);
+    }
 }
 
 #[test]

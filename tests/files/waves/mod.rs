@@ -15,6 +15,7 @@ mod reset;
 mod series;
 mod text;
 mod watched;
+mod windows;
 mod zoo;
 
 use motion_rtl::hdl::{Circuit, Value};
