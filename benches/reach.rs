@@ -35,8 +35,7 @@ fn unit_law_of_4_bits(bencher: divan::Bencher<'_, '_>) {
 
 #[divan::bench(sample_count = 5)]
 fn mul_div_of_3_bits(bencher: divan::Bencher<'_, '_>) {
-    let (multiplier, word) = (2, 3);
-    measure(bencher, &MulDiv { multiplier, word });
+    measure(bencher, &MulDiv::new(2, 3));
 }
 
 #[divan::bench(sample_count = 5)]

@@ -102,7 +102,7 @@ fn every_circuit_equals_its_verilog_in_icarus() {
 }
 
 /// Circuits that can be made otherwise than as the catalogue has them at a width.
-const VARIANTS: [(&str, &[&str]); 8] = [
+const VARIANTS: [(&str, &[&str]); 12] = [
     ("pulse_generator", &["width=8", "variant=literal"]),
     (
         "axis",
@@ -121,6 +121,22 @@ const VARIANTS: [(&str, &[&str]); 8] = [
     ("conventional_pulse_interpolator", &["arcs=true"]),
     ("integrator", &["position=8", "rule=truncating"]),
     ("integrator", &["position=8", "rule=centred"]),
+    (
+        "mul_div",
+        &["multiplier=25", "word=58", "architecture=radix4"],
+    ),
+    (
+        "mul_div",
+        &["multiplier=5", "word=9", "architecture=radix4"],
+    ),
+    (
+        "mul_div",
+        &["multiplier=25", "word=58", "architecture=combinational"],
+    ),
+    (
+        "mul_div",
+        &["multiplier=9", "word=5", "architecture=combinational"],
+    ),
 ];
 
 pub fn variants() -> impl Iterator<Item = Box<dyn AnyModel>> {

@@ -94,10 +94,8 @@ impl Correction {
     /// To second order a factor can be twice a time.
     fn mul_div(&self) -> MulDiv {
         let arithmetic = self.arithmetic();
-        MulDiv {
-            multiplier: arithmetic.time() + usize::from(self.second_order()),
-            word: arithmetic.word(),
-        }
+        let multiplier = arithmetic.time() + usize::from(self.second_order());
+        MulDiv::new(multiplier, arithmetic.word())
     }
 }
 
@@ -157,26 +155,29 @@ signals! { for Correction as c;
 impl Correction {
     /// Helpers: a quotient has no more than half of the range of a word, because only a divisor of 1
     /// leaves the dividend as it is.
-    fn bounds(&self, q: &mul_div::Reg<Open>) -> [Property; 3] {
-        let MulDiv { multiplier, word } = self.mul_div();
-        let (multiplies, divides) = (q.state.equals(MULTIPLY), q.state.equals(DIVIDE));
+    fn bounds(&self, q: &mul_div::Reg<Open>) -> Option<[Property; 3]> {
+        let MulDiv {
+            multiplier, word, ..
+        } = self.mul_div();
+        let running = q.sequence.as_ref()?;
+        let [multiplies, divides] = [MULTIPLY, DIVIDE].map(|state| running.state.equals(state));
         let time = multiplier - usize::from(self.second_order());
         let highest = q.quotient.bit(word - 1);
-        let at = |count: usize, holds: Bit| q.count.equals(count as u64).implies(holds);
+        let at = |count: usize, holds: Bit| running.count.equals(count as u64).implies(holds);
         // The product before each bit of the multiplier.
         let product = (0..multiplier).map(|count| {
             let most = U::new(1 << (self.position - 1 + count), word);
-            let short =
-                q.shifted.is_zero() | q.factor.shift_right(time - count.min(time)).is_zero();
-            at(count, short & !most.below(q.shifted))
+            let short = running.shifted.is_zero()
+                | running.factor.shift_right(time - count.min(time)).is_zero();
+            at(count, short & !most.below(running.shifted))
         });
-        let less = q.quotient.is_zero() | q.quotient.below(q.shifted);
+        let less = q.quotient.is_zero() | q.quotient.below(running.shifted);
         let alone = less & Bit::all(product);
-        let by_one = q.by.equals(1);
+        let by_one = running.by.equals(1);
         // The first bit of the quotient, where it is after each tick.
         let bits = (1..word).map(|count| at(count, !q.quotient.bit(count - 1)));
         let begins = at(0, q.remainder.is_zero() & !(by_one & highest));
-        [
+        Some([
             Property::helper(
                 "a product that is divided by 1 is less than half of the range",
                 &["mul_div.quotient", "mul_div.shifted"],
@@ -185,15 +186,15 @@ impl Correction {
             Property::helper(
                 "a correction is never divided by 0, and its remainder begins with 0",
                 &["mul_div.by", "mul_div.remainder"],
-                (multiplies | divides).implies(!q.by.is_zero())
-                    & multiplies.implies(q.remainder.is_zero() & !q.undivided),
+                (multiplies | divides).implies(!running.by.is_zero())
+                    & multiplies.implies(q.remainder.is_zero() & !running.undivided),
             ),
             Property::helper(
                 "the first bit of a quotient is low",
                 &["mul_div.quotient"],
                 divides.implies(begins & Bit::all(bits)) & q.done.implies(!highest),
             ),
-        ]
+        ])
     }
 }
 
@@ -308,7 +309,7 @@ impl Circuit for Correction {
                 !widest.below(part.q.overrun_amount),
             ));
         }
-        all.extend(self.bounds(&now.p.mul_div.q));
+        all.extend(self.bounds(&now.p.mul_div.q).into_iter().flatten());
         all
     }
 }

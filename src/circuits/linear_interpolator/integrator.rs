@@ -31,10 +31,7 @@ pub struct Integrator {
 
 impl Integrator {
     const fn mul_div(&self) -> MulDiv {
-        MulDiv {
-            multiplier: self.position,
-            word: 2 * self.position,
-        }
+        MulDiv::new(self.position, 2 * self.position)
     }
 
     /// Ticks from `start` to `valid`.

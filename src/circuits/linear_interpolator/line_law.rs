@@ -118,12 +118,6 @@ impl Circuit for LineLaw {
         let (way_slave, way_master) =
             (way(q.integral_before, w.integral), way(q.sum_before, q.sum));
         let shorter = !master.magnitude().below(slave.magnitude());
-        let mul_div = &now.p.integrator.p.mul_div;
-        let (runs, ends, division) = (mul_div.w.busy, mul_div.q.done, &mul_div.q);
-        let width = division.by.width();
-        let divisor = division.by.equals(master.magnitude().resize(width));
-        let half = U::new(1, width).shift_left(self.integrator.position - 1);
-        let below = division.by.is_zero() | division.remainder.below(division.by);
         let [law, end, near] = self.law(now);
         let mut all = self.given(now).to_vec();
         all.extend([
@@ -140,23 +134,13 @@ impl Circuit for LineLaw {
                 (settled(now) & shorter).implies(!way_master.below(way_slave)),
             ),
             near,
-            Property::helper(
-                "the divider runs or ends while a division is running, and is by |Δx| then",
-                &["integrator.mul_div.by"],
-                settled(now).mux(!runs & !ends, (runs ^ ends) & divisor & !master.is_zero())
-                    & !division.state.equals(3),
-            ),
-            Property::helper(
-                "the rest of a division stays below its divisor, which is a distance",
-                &["integrator.mul_div.remainder"],
-                below & !half.below(division.by),
-            ),
-            Property::helper(
-                "B is less than Δx in every tick",
-                &["remainder"],
-                less & signed,
-            ),
         ]);
+        all.extend(self.division(now).into_iter().flatten());
+        all.push(Property::helper(
+            "B is less than Δx in every tick",
+            &["remainder"],
+            less & signed,
+        ));
         all
     }
 }
@@ -189,6 +173,30 @@ impl LineLaw {
     /// word.
     fn product(&self, a: I, b: I) -> I {
         a.times(b, 2 * self.integrator.position)
+    }
+
+    /// Statements about the running division.
+    fn division(&self, now: &Moment<Self>) -> Option<[Property; 2]> {
+        let mul_div = &now.p.integrator.p.mul_div;
+        let running = mul_div.q.sequence.as_ref()?;
+        let (runs, ends, by) = (mul_div.w.busy, mul_div.q.done, running.by);
+        let master = now.q.held_master;
+        let divisor = by.equals(master.magnitude().resize(by.width()));
+        let half = U::new(1, by.width()).shift_left(self.integrator.position - 1);
+        let below = by.is_zero() | mul_div.q.remainder.below(by);
+        Some([
+            Property::helper(
+                "the divider runs or ends while a division is running, and is by |Δx| then",
+                &["integrator.mul_div.by"],
+                settled(now).mux(!runs & !ends, (runs ^ ends) & divisor & !master.is_zero())
+                    & !running.state.equals(3),
+            ),
+            Property::helper(
+                "the rest of a division stays below its divisor, which is a distance",
+                &["integrator.mul_div.remainder"],
+                below & !half.below(by),
+            ),
+        ])
     }
 
     /// Statements about the increments.

@@ -39,10 +39,7 @@ impl PatternGenerator {
 
     const fn mul_div(&self) -> MulDiv {
         let trapezoid = self.trapezoid();
-        MulDiv {
-            multiplier: trapezoid.multiplier(),
-            word: trapezoid.word(),
-        }
+        MulDiv::new(trapezoid.multiplier(), trapezoid.word())
     }
 
     /// Ticks from `start` to `ready`: three products and a quotient, each with a tick before it.
@@ -118,14 +115,20 @@ impl Circuit for PatternGenerator {
     }
 
     fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
-        self.helpers(&now.p.trapezoid.q, &now.p.mul_div.q).to_vec()
+        let helpers = self.helpers(&now.p.trapezoid.q, &now.p.mul_div.q);
+        helpers.into_iter().flatten().collect()
     }
 }
 
 impl PatternGenerator {
     /// Statements that the assumptions of the multiplier-divider need: no divisor is 0, and no sum
-    /// of weights has more than half of the range of a word.
-    fn helpers(&self, q: &trapezoid::Reg<Open>, running: &mul_div::Reg<Open>) -> [Property; 5] {
+    /// of weights has more than half of the range of a word. They are about its running calculation.
+    fn helpers(
+        &self,
+        q: &trapezoid::Reg<Open>,
+        mul_div: &mul_div::Reg<Open>,
+    ) -> Option<[Property; 5]> {
+        let running = mul_div.sequence.as_ref()?;
         let is = |state: u64| q.state.equals(state);
         let scans = is(WAITING) | is(SCAN);
         let (position, time) = (self.position, self.time);
@@ -136,14 +139,14 @@ impl PatternGenerator {
         let peak = (is(TOTAL) | scans).implies(!q.peak.is_zero() & below(q.peak, 2 * time));
         let widest = self.mul_div().word - 1;
         let total = scans.implies(!q.total.is_zero() & below(q.total, widest));
-        let busy = !running.state.is_zero() | running.done;
+        let busy = !running.state.is_zero() | mul_div.done;
         let computes = q.under_way & !q.request;
-        let products = (computes & is(PEAK)).implies(self.product(running, time, time))
-            & (computes & is(TOTAL)).implies(self.product(running, position + 1, 2 * time));
-        let rests = running.remainder.is_zero() & !running.state.equals(DIVIDE);
+        let products = (computes & is(PEAK)).implies(self.product(mul_div, time, time)?)
+            & (computes & is(TOTAL)).implies(self.product(mul_div, position + 1, 2 * time)?);
+        let rests = mul_div.remainder.is_zero() & !running.state.equals(DIVIDE);
         let multiplies = running.state.equals(MULTIPLY);
         let undivided = multiplies.implies(running.undivided);
-        [
+        Some([
             Property::helper(
                 "a cycle has settings that are not 0, and without one nothing is requested",
                 &[
@@ -174,26 +177,29 @@ impl PatternGenerator {
                 "nothing is divided by 0, and a remainder begins with 0",
                 &["mul_div.by"],
                 running.by.is_zero().implies(rests & undivided)
-                    & (!multiplies | running.remainder.is_zero()),
+                    & (!multiplies | mul_div.remainder.is_zero()),
             ),
-        ]
+        ])
     }
 
     /// High if a product without a division is running or complete, of two factors of these numbers
     /// of bits that are not 0.
-    fn product(&self, q: &mul_div::Reg<Open>, first: usize, second: usize) -> Bit {
-        let MulDiv { multiplier, word } = self.mul_div();
+    fn product(&self, q: &mul_div::Reg<Open>, first: usize, second: usize) -> Option<Bit> {
+        let MulDiv {
+            multiplier, word, ..
+        } = self.mul_div();
+        let running = q.sequence.as_ref()?;
         let below = |word: U, bits: usize| word.shift_right(bits).is_zero();
         let ticks = (0..multiplier).map(|count| {
             let used = count.min(second);
-            let short = below(q.shifted, (first + count).min(word))
-                & below(q.factor, second - used)
+            let short = below(running.shifted, (first + count).min(word))
+                & below(running.factor, second - used)
                 & below(q.quotient, first + used);
-            q.count.equals(count as u64).implies(short)
+            running.count.equals(count as u64).implies(short)
         });
-        let left = !q.shifted.is_zero() & !(q.factor.is_zero() & q.quotient.is_zero());
-        let runs = q.state.equals(MULTIPLY) & q.undivided & left & Bit::all(ticks);
+        let left = !running.shifted.is_zero() & !(running.factor.is_zero() & q.quotient.is_zero());
+        let runs = running.state.equals(MULTIPLY) & running.undivided & left & Bit::all(ticks);
         let complete = !q.quotient.is_zero() & below(q.quotient, first + second);
-        q.done.mux(q.state.is_zero() & complete, runs)
+        Some(q.done.mux(running.state.is_zero() & complete, runs))
     }
 }

@@ -85,10 +85,7 @@ pub struct MotorController {
 impl MotorController {
     /// The divider that it wants: the multiplier is 1.
     pub fn divider(&self) -> MulDiv {
-        MulDiv {
-            multiplier: 1,
-            word: self.widths.divider(),
-        }
+        MulDiv::new(1, self.widths.divider())
     }
 
     /// The shortest unit time in ticks in which the next is prepared, where a new move begins.

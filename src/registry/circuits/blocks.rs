@@ -18,8 +18,8 @@ fn engine(widths: Widths) -> DifferenceEngine {
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         MulDiv, "block: sequential arithmetic",
-        full: MulDiv { multiplier: 25, word: 58 },
-        small: MulDiv { multiplier: 2, word: 3 }, proved: true,
+        full: MulDiv::new(25, 58),
+        small: MulDiv::new(2, 3), proved: true,
     ),
     entry!(
         Scaler, "block: gains of CN104204977 and others",

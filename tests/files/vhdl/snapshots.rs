@@ -36,11 +36,7 @@ fn circuits_in_a_circuit() {
 
 #[test]
 fn states_and_choices() {
-    let circuit = MulDiv {
-        word: 6,
-        multiplier: 4,
-    };
-    expect_file!["mul_div.vhd"].assert_eq(&text(&circuit));
+    expect_file!["mul_div.vhd"].assert_eq(&text(&MulDiv::new(4, 6)));
 }
 
 #[test]
