@@ -1,11 +1,16 @@
 //! The circuits in synthesis, and their assertions proved at full width.
 
 use super::tools::{run, write};
+use motion_rtl::circuits::blocks::MulDiv;
+use motion_rtl::circuits::blocks::mul_div::Architecture;
 use motion_rtl::registry::{AnyModel, Base, CATALOGUE, Entry};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::fmt::Write as _;
 use std::path::Path;
+
+/// The note of Verilog.
+const VERILOG: &str = "rtl_notes/verilog.md";
 
 /// Runs a script; returns what Yosys says.
 #[track_caller]
@@ -188,11 +193,64 @@ fn induction() -> String {
     text
 }
 
+/// Latency, cells and longest path of the multiplier-divider in each architecture.
+fn architectures() -> String {
+    let version = run(Path::new("."), "yosys", &["-V"]);
+    let all = [
+        Architecture::Radix2,
+        Architecture::Radix4,
+        Architecture::Combinational,
+    ];
+    let circuits = all.iter().flat_map(|&architecture| {
+        [(4, 8), (8, 16), (16, 32)].map(|(multiplier, word)| MulDiv {
+            multiplier,
+            word,
+            architecture,
+        })
+    });
+    let circuits: Vec<_> = circuits.collect();
+    let rows = circuits.par_iter().with_max_len(1).map(architecture);
+    let rows: Vec<String> = rows.collect();
+    format!(
+        "{version}\n| architecture | M | Q | ticks | ticks with `product_only` | LUTs | \
+         flip-flops | carries | gates of the longest path |\n\
+         |---|---|---|---|---|---|---|---|---|\n{}",
+        rows.concat()
+    )
+}
+
+/// A row of the table of architectures.
+fn architecture(circuit: &MulDiv) -> String {
+    let key = toml::Value::try_from(circuit.architecture).unwrap();
+    let said = yosys(circuit, |files| {
+        format!("read_verilog {files}; synth_ice40 -top mul_div; stat")
+    });
+    let count = |kind: &'static str| cells(&said, move |cell| cell.starts_with(kind));
+    let said = yosys(circuit, |files| {
+        format!("read_verilog {files}; synth -top mul_div; ltp -noff")
+    });
+    let (_, path) = said
+        .split_once("Longest topological path in mul_div (length=")
+        .unwrap();
+    let (path, _) = path.split_once(')').unwrap();
+    format!(
+        "| `{}` | {} | {} | {} | {} | {} | {} | {} | {path} |\n",
+        key.as_str().unwrap(),
+        circuit.multiplier,
+        circuit.word,
+        circuit.latency(),
+        circuit.product_latency(),
+        count("SB_LUT4"),
+        count("SB_DFF"),
+        count("SB_CARRY"),
+    )
+}
+
 /// Compares the text between the marks of a note with the tools' present output.
 #[track_caller]
-fn measured(what: &str, fresh: impl FnOnce(&str) -> String) {
+fn measured(note: &str, what: &str, fresh: impl FnOnce(&str) -> String) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let path = root.join("rtl_notes/verilog.md");
+    let path = root.join(note);
     let note = std::fs::read_to_string(&path).unwrap();
     let begin = format!("<!-- begin measured: {what} -->\n");
     let (before, rest) = note.split_once(&begin).expect("the note has the mark");
@@ -214,7 +272,15 @@ fn measured(what: &str, fresh: impl FnOnce(&str) -> String) {
 #[test]
 #[ignore = "needs Yosys"]
 fn every_circuit_goes_through_synthesis_and_the_note_has_its_cells() {
-    measured("synthesis", synthesis);
+    measured(VERILOG, "synthesis", synthesis);
+}
+
+#[test]
+#[ignore = "needs Yosys"]
+fn the_note_has_latency_cells_and_path_of_the_architectures_of_mul_div() {
+    measured("rtl_notes/blocks/mul_div.md", "architectures", |_| {
+        architectures()
+    });
 }
 
 #[test]
@@ -222,7 +288,7 @@ fn every_circuit_goes_through_synthesis_and_the_note_has_its_cells() {
 fn assertions_are_proved_by_induction_at_full_width() {
     let table = induction();
     assert!(table.lines().count() >= 2 + 5, "{table}");
-    measured("induction", |_| table);
+    measured(VERILOG, "induction", |_| table);
 }
 
 /// Checks that Yosys refutes the assertions of a circuit in which `from` is replaced by `to`.

@@ -3,6 +3,7 @@
 //!
 //! `UPDATE_NOTES=1 cargo test --release --test cli notes` writes them anew.
 
+use super::full_width::Subject;
 use super::{
     Note, axes, blends, connections, expect_none, full_width, miscounts, notes, rotations, small,
     states,
@@ -33,10 +34,13 @@ fn make(what: &str, note: &str, stands: &str, long: bool) -> Result<String, Stri
         ("charts", Some(entry)) => small::sentence(entry, note),
         ("connections", Some(entry)) => Ok(connections::table(entry)),
         ("blocks", None) => Ok(blocks(name)),
-        ("proofs", None) => {
+        ("proofs" | "variants", None) => {
             let stands = if long { "" } else { stands };
-            let full = full_width::table(of(name), stands);
-            Ok(proofs(name, stands) + &full)
+            let subjects = match kind {
+                "proofs" => of(name).map(Subject::from).collect(),
+                _ => variants(name)?,
+            };
+            Ok(proofs(&subjects, stands) + &full_width::table(&subjects, stands))
         }
         ("keys", _) => keys(name),
         ("literal", None) => Ok(literal()),
@@ -284,26 +288,41 @@ fn memory_row(memory: &MemoryDeclaration) -> String {
     format!("| `{name}` | {words} × {width} | memory | contents | {doc} |\n")
 }
 
-/// The proof of every circuit of a patent, at its proof width; those that stand there and take long
+/// Variants of a circuit: `NAME KEY=VALUE KEY=VALUE`, one for each pair.
+fn variants(what: &str) -> Result<Vec<Subject>, String> {
+    let (name, pairs) = what.split_once(' ').unwrap_or((what, ""));
+    let entry = find(name).ok_or_else(|| format!("no circuit is called `{name}`"))?;
+    let subject = |pair: &str| {
+        let pairs = vec![pair.parse().map_err(|error| format!("{pair}: {error}"))?];
+        Ok(Subject { entry, pairs })
+    };
+    pairs.split(' ').map(subject).collect()
+}
+
+/// The proof of every circuit that has one, at its proof width; those that stand there and take long
 /// as they stand.
-fn proofs(patent: &str, stands: &str) -> String {
+fn proofs(subjects: &[Subject], stands: &str) -> String {
     let mut text = String::from(
         "| circuit | widths | states | transitions | depth |\n|---|---|---|---|---|\n",
     );
-    let entries: Vec<_> = of(patent).filter(|entry| entry.proved).collect();
-    let rows = entries.into_par_iter().map(|entry| {
-        let circuit = entry.proof(&[]).expect("it is made for its proof");
-        let width = widths(entry, Base::Small);
-        if let Some(row) = long_proof(stands, &format!("| `{}` | {width} | ", entry.name)) {
+    let proved = subjects.par_iter().filter(|subject| subject.entry.proved);
+    let rows = proved.map(|subject| {
+        let circuit = subject.entry.proof(&subject.pairs);
+        let circuit = circuit.expect("it is made for its proof");
+        let begin = format!(
+            "| {} | {} | ",
+            subject.cell(),
+            widths(subject.entry, Base::Small)
+        );
+        if let Some(row) = long_proof(stands, &begin) {
             return format!("{row}\n");
         }
         let verdict = circuit.prove(&ProofSearch::default(), &mut |_| {});
         let Ok(Verdict::Proved(proof)) = verdict else {
-            panic!("{} is not proved: {verdict:?}", entry.name);
+            panic!("{} is not proved: {verdict:?}", subject.cell());
         };
         format!(
-            "| `{}` | {width} | {} | {} | {} |\n",
-            entry.name,
+            "{begin}{} | {} | {} |\n",
             thousands(proof.states),
             thousands(proof.transitions),
             proof.depth,
