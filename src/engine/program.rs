@@ -1,8 +1,9 @@
 use super::flat::Flat;
 use super::passes;
 use super::plan::Plan;
+use super::prediction::Graph;
 use crate::netlist::Design;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Circuit that is ready to run; engines share it.
 #[derive(Debug)]
@@ -15,7 +16,9 @@ pub struct Program {
     pub(super) power_on: Vec<u64>,
     /// By slot: leaves that end a run over idle ticks when they change; see
     /// [`Engine::forward`](super::Engine::forward).
-    pub(super) held: Vec<bool>,
+    held: Vec<bool>,
+    /// Dependency graph, made when the first engine searches for idle ticks.
+    graph: OnceLock<Arc<Graph>>,
     all: bool,
 }
 
@@ -64,6 +67,7 @@ impl Program {
             plan,
             flat: flat.clone(),
             held: slots,
+            graph: OnceLock::new(),
             all,
         }
     }
@@ -77,6 +81,12 @@ impl Program {
     #[inline]
     pub fn plan(&self) -> &Plan {
         &self.plan
+    }
+
+    /// Returns the dependency graph of the plan.
+    pub(super) fn graph(&self) -> Arc<Graph> {
+        let graph = || Arc::new(Graph::new(&self.plan, &self.held));
+        self.graph.get_or_init(graph).clone()
     }
 
     /// Returns the netlist before all passes.

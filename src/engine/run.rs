@@ -63,17 +63,25 @@ struct Pause {
 impl Pause {
     /// Longest pause in ticks, if recent attempts have paid off and if they have not.
     const LONGEST: [u64; 2] = [64, 512];
+    /// Least length of a pause after attempts that have not paid off, in costs of the last one.
+    const RARE: u64 = 128;
     const CREDIT: i64 = 1 << 20;
 
-    fn after(&mut self, took: u64, saved: u64) {
+    /// Sets the pause after an attempt; a tick costs `pace`.
+    fn after(&mut self, took: u64, saved: u64, pace: u64) {
+        let rare = Self::RARE * took / pace.max(1);
         let took = took as i64;
         let saved = saved.min(u32::MAX.into()) as i64;
         // Old costs fade, and long jumps do not count for ever.
         self.debt = (self.debt - self.debt / 64 + took - saved).max(-Self::CREDIT);
         let pays = self.debt <= 0;
+        let longest = match pays {
+            true => Self::LONGEST[0],
+            false => Self::LONGEST[1].max(rare),
+        };
         self.ticks = match saved > 0 && pays {
             true => 0,
-            false => (2 * self.ticks).clamp(1, Self::LONGEST[usize::from(!pays)]),
+            false => (2 * self.ticks).clamp(1, longest),
         };
         self.left = self.ticks;
     }
@@ -246,14 +254,14 @@ impl Engine {
         let program = &self.program;
         let prediction = self
             .prediction
-            .get_or_insert_with(|| Box::new(Prediction::new(&program.plan, &program.held)));
+            .get_or_insert_with(|| Box::new(Prediction::new(&program.plan, program.graph())));
         let ticks = prediction.horizon(&program.plan, self.tier.hot(), &self.slab, most);
         let saved = if ticks < 2 {
             0
         } else {
-            ticks.saturating_mul(self.tier.pace())
+            ticks.saturating_mul(self.tier.cost(prediction.idle_steps()))
         };
-        self.pause.after(prediction.work(), saved);
+        self.pause.after(prediction.work(), saved, self.tier.pace());
         if ticks < 2 {
             return 0;
         }

@@ -4,7 +4,7 @@
 #[cfg(feature = "jit")]
 use super::compiler::Code;
 use super::interpreter::{self, Counts};
-use super::plan::Plan;
+use super::plan::{Block, Plan};
 use super::replay::Replay;
 use std::sync::{Arc, OnceLock};
 
@@ -44,14 +44,14 @@ enum Backend {
 
 impl Tier {
     pub fn new(plan: &Plan) -> Self {
-        let steps: usize = plan.blocks.iter().map(|block| block.steps.len() + 8).sum();
+        let steps: u64 = plan.blocks.iter().map(Block::cost).sum();
         Tier {
             backend: Backend::Interpreter,
             counts: vec![0; plan.blocks.len()],
             ticks: 0,
-            pace: INTERPRETED * steps as u64,
+            pace: INTERPRETED * steps,
             due: if cfg!(feature = "jit") {
-                steps as u64 * PAYS
+                steps * PAYS
             } else {
                 u64::MAX
             },
@@ -79,6 +79,15 @@ impl Tier {
     pub fn straight(&mut self, plan: &Plan) -> bool {
         self.compile(plan, vec![true; plan.blocks.len()]);
         !matches!(self.backend, Backend::Interpreter)
+    }
+
+    /// Returns the cost of some steps, in compiled ones.
+    pub fn cost(&self, steps: u64) -> u64 {
+        match &self.backend {
+            Backend::Interpreter => INTERPRETED * steps,
+            #[cfg(feature = "jit")]
+            Backend::Code(_) => steps,
+        }
     }
 
     /// Returns the cost of a tick, in compiled steps.
@@ -156,7 +165,7 @@ impl Tier {
         if self.due == u64::MAX || !self.ticks.is_multiple_of(COUNTED) {
             return;
         }
-        let steps = plan.blocks.iter().map(|block| block.steps.len() as u64 + 8);
+        let steps = plan.blocks.iter().map(Block::cost);
         let counted = self.counts.iter().zip(steps);
         let work: u64 = counted.map(|(count, steps)| count * steps).sum();
         self.pace = INTERPRETED * work / self.ticks;

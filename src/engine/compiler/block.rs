@@ -1,5 +1,6 @@
 //! Machine code of a block, inlined into the function.
 
+use super::choices::Choices;
 use super::emit::{Changes, Emitter, Word};
 use crate::engine::flat::mask;
 use crate::engine::layout::Slot;
@@ -25,6 +26,9 @@ pub(super) fn settle(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
 /// Emits a block that makes the edge: registers are written after everything that reads them.
 pub(super) fn edge(emitter: &mut Emitter<'_>, plan: &Plan, place: usize) {
     let block = &plan.blocks[place];
+    if !long(block, emitter.part_size) && Choices::fit(block) {
+        return by_choices(emitter, plan, place);
+    }
     steps(emitter, plan, block);
     parts(emitter, block, &block.writes, |emitter, write, _| {
         Port::of(emitter, plan, write).emit(emitter, plan, place);
@@ -42,6 +46,28 @@ pub(super) fn edge(emitter: &mut Emitter<'_>, plan: &Plan, place: usize) {
             }
         },
     );
+}
+
+/// Emits a block whose words are computed where they are needed.
+fn by_choices(emitter: &mut Emitter<'_>, plan: &Plan, place: usize) {
+    let block = &plan.blocks[place];
+    let mut choices = Choices::new(emitter, plan, block);
+    choices.reads_first();
+    for write in &block.writes {
+        choices.need(write.enable);
+        let enable = choices.emitter.clean(write.enable, 1);
+        let (on, done) = (choices.emitter.block(), choices.emitter.block());
+        choices.emitter.branch(enable, on, done);
+        choices.emitter.begin(on);
+        choices.scope(|choices| {
+            choices.need(write.data);
+            write.address.iter().for_each(|&slot| choices.need(slot));
+            let port = Port::of(choices.emitter, plan, write);
+            port.write(choices.emitter, plan, place, done);
+        });
+        choices.emitter.continue_in(done);
+    }
+    choices.registers();
 }
 
 /// Commits the shadows of a block to its registers.
@@ -86,7 +112,7 @@ fn parts<T>(
     }
 }
 
-fn clean(emitter: &mut Emitter<'_>, slot: Slot, width: u8) -> Word {
+pub(super) fn clean(emitter: &mut Emitter<'_>, slot: Slot, width: u8) -> Word {
     emitter.clean(slot, width);
     emitter.word(slot, width)
 }
@@ -114,13 +140,17 @@ impl<'p> Port<'p> {
         let (write, done) = (emitter.block(), emitter.block());
         emitter.branch(self.enable, write, done);
         emitter.begin(write);
+        self.write(emitter, plan, place, done);
+        emitter.continue_in(done);
+    }
+
+    /// Emits an enabled write; leaves for `done` if it changes nothing.
+    fn write(&self, emitter: &mut Emitter<'_>, plan: &Plan, place: usize, done: ir::Block) {
         match (self.address, self.memory.head) {
             (Some(address), _) => self.word(emitter, address, done),
             (None, Some(head)) => self.shift(emitter, head, plan.bit(place) as u32),
             (None, None) => {}
         }
-        emitter.jump(done);
-        emitter.begin(done);
     }
 
     /// Emits a RAM write, skipped if the address is past the end or the word is unchanged.
@@ -228,7 +258,7 @@ fn kept(block: &Block, size: usize) -> FxHashSet<Slot> {
 }
 
 /// Emits the value of a step; also returns the number of low bits that may be high.
-fn value(emitter: &mut Emitter<'_>, plan: &Plan, step: &Step) -> (Value, u8) {
+pub(super) fn value(emitter: &mut Emitter<'_>, plan: &Plan, step: &Step) -> (Value, u8) {
     let Step {
         code,
         width,

@@ -44,6 +44,9 @@ pub(super) struct Emitter<'f> {
     constants: FxHashMap<Slot, u64>,
     /// Known words of slots, valid if their epoch is that of the current block.
     known: Vec<Known>,
+    /// Words that became known since the outermost [`open`](Self::open), with what was known before.
+    undo: Vec<(Slot, Known)>,
+    scopes: u32,
     epoch: u32,
     /// Current part of the block.
     part: u32,
@@ -74,6 +77,8 @@ impl<'f> Emitter<'f> {
             base: parameters[0],
             constants: layout.constants.iter().copied().collect(),
             known: vec![Known::default(); layout.words as usize],
+            undo: Vec::new(),
+            scopes: 0,
             epoch: 0,
             part: 0,
             part_size,
@@ -110,6 +115,12 @@ impl<'f> Emitter<'f> {
     pub fn begin(&mut self, block: Block) {
         self.cursor.func.layout.append_block(block);
         self.cursor.goto_bottom(block);
+    }
+
+    /// Jumps to a block, and continues in it.
+    pub fn continue_in(&mut self, block: Block) {
+        self.jump(block);
+        self.begin(block);
     }
 
     pub fn jump(&mut self, to: Block) {
@@ -250,6 +261,25 @@ impl<'f> Emitter<'f> {
         self.epoch += 1;
     }
 
+    /// Begins code that runs on some paths only: what becomes known there is forgotten when it is
+    /// [closed](Self::close).
+    pub fn open(&mut self) -> usize {
+        self.scopes += 1;
+        self.undo.len()
+    }
+
+    /// Ends the code that began with `mark`.
+    pub fn close(&mut self, mark: usize) {
+        self.scopes -= 1;
+        while self.undo.len() > mark
+            && let Some((slot, before)) = self.undo.pop()
+        {
+            if let Some(known) = self.known.get_mut(slot as usize) {
+                *known = before;
+            }
+        }
+    }
+
     /// Begins another part of the block: words are loaded again, which limits the number of live
     /// values. Results of steps must be [stored](Self::keep) before.
     pub fn part(&mut self) {
@@ -260,6 +290,9 @@ impl<'f> Emitter<'f> {
     pub fn know(&mut self, slot: Slot, word: Word) {
         let since = (self.epoch, self.part);
         if let Some(known) = self.known.get_mut(slot as usize) {
+            if self.scopes > 0 {
+                self.undo.push((slot, *known));
+            }
             *known = Known {
                 since,
                 word: Some(word),
@@ -333,6 +366,13 @@ impl<'f> Emitter<'f> {
 
     /// Stores a word in its slot, and records the bits to set if it differs from the old one.
     pub fn store_tracked(&mut self, slot: Slot, word: Word, changes: &mut Changes) {
+        self.replace(slot, word, changes);
+        self.know(slot, word);
+    }
+
+    /// Stores a word as [`store_tracked`](Self::store_tracked) does; code after it that reads the
+    /// slot still gets the old word if that was known.
+    pub fn replace(&mut self, slot: Slot, word: Word, changes: &mut Changes) {
         let targets = self.bits_of(slot);
         if !targets.is_empty() {
             let old = self.word(slot, word.width);
@@ -349,7 +389,6 @@ impl<'f> Emitter<'f> {
             );
         }
         self.store(slot, word.value);
-        self.know(slot, word);
     }
 
     /// Records that a slot changes if a word is not 0.

@@ -155,58 +155,12 @@ impl Flow<'_> {
                 continue;
             }
             for (word, mask, places) in words(self.plan, &run.blocks) {
-                let slot = self.plan.layout.dirty + word;
-                self.scan(slot, mask, &places);
+                let due = Due::Word(self.plan.layout.dirty + word);
+                self.blocks(due, mask, &places, |flow, place| {
+                    block::settle(&mut flow.emitter, flow.plan, &flow.plan.blocks[place]);
+                });
             }
         }
-    }
-
-    /// Emits a loop that runs blocks of a word of `dirty` while one of them has its bit set.
-    fn scan(&mut self, slot: Slot, mask: u64, places: &[usize]) {
-        let (look, next) = (self.emitter.block(), self.emitter.block());
-        self.emitter.jump(look);
-        self.emitter.begin(look);
-        let all = self.emitter.load(slot);
-        let due = self.emitter.and(all, mask);
-        let go = self.emitter.block();
-        self.emitter.branch(due, go, next);
-        self.emitter.begin(go);
-        let less = self.emitter.ins().iadd_imm_s(due, -1);
-        let rest = self.emitter.ins().band(due, less);
-        let lowest = self.emitter.ins().bxor(due, rest);
-        let keep = self.emitter.ins().bxor(all, lowest);
-        self.emitter.store(slot, keep);
-        let targets = self.dispatch(due, places);
-        for (&place, target) in places.iter().zip(targets) {
-            self.emitter.begin(target);
-            self.emitter.forget();
-            block::settle(&mut self.emitter, self.plan, &self.plan.blocks[place]);
-            self.emitter.jump(look);
-        }
-        self.emitter.begin(next);
-    }
-
-    /// Emits a jump to the block of the lowest set bit.
-    fn dispatch(&mut self, due: Value, places: &[usize]) -> Vec<Block> {
-        let targets: Vec<Block> = places.iter().map(|_| self.emitter.block()).collect();
-        if let [only] = targets[..] {
-            self.emitter.jump(only);
-            return targets;
-        }
-        let bits: Vec<usize> = places
-            .iter()
-            .map(|&place| self.plan.bit(place) % 64)
-            .collect();
-        let first = bits[0];
-        let number = self.emitter.ins().ctz(due);
-        let number = self.emitter.ins().iadd_imm_s(number, -(first as i64));
-        let last = *bits.last().unwrap_or(&first);
-        let mut table = vec![targets[0]; last - first + 1];
-        for (&bit, &target) in bits.iter().zip(&targets) {
-            table[bit - first] = target;
-        }
-        self.emitter.branch_to(number, &table);
-        targets
     }
 
     fn edge(&mut self) {
@@ -234,7 +188,7 @@ impl Flow<'_> {
             }
             for (word, mask, places) in words(plan, &run.blocks) {
                 if let Some(&due) = due.get(&word) {
-                    self.edges(due, mask, &places, |flow, place| {
+                    self.blocks(Due::Taken(due), mask, &places, |flow, place| {
                         block::edge(&mut flow.emitter, plan, place)
                     });
                 }
@@ -253,40 +207,70 @@ impl Flow<'_> {
         }
         for (word, mask, places) in words(plan, &cold) {
             if let Some(&due) = due.get(&word) {
-                self.edges(due, mask, &places, |flow, place| {
+                self.blocks(Due::Taken(due), mask, &places, |flow, place| {
                     block::commit(&mut flow.emitter, plan, &plan.blocks[place])
                 });
             }
         }
     }
 
-    fn edges(
+    /// Emits some blocks of a word of `dirty`; each runs if its bit is set.
+    fn blocks(
         &mut self,
-        due: Value,
+        due: Due,
         mask: u64,
         places: &[usize],
         mut emit: impl FnMut(&mut Self, usize),
     ) {
-        let (look, left) = self.emitter.block_with();
-        let next = self.emitter.block();
-        let due = self.emitter.and(due, mask);
-        self.emitter.jump_with(look, due);
-        self.emitter.begin(look);
-        let go = self.emitter.block();
-        self.emitter.branch(left, go, next);
-        self.emitter.begin(go);
-        let less = self.emitter.ins().iadd_imm_s(left, -1);
-        let rest = self.emitter.ins().band(left, less);
-        let targets = self.dispatch(left, places);
-        for (&place, target) in places.iter().zip(targets) {
-            self.emitter.begin(target);
-            self.emitter.forget();
-            emit(self, place);
-            self.emitter.jump_with(look, rest);
+        let end = self.unless_due(due, mask);
+        for group in places.chunks(GROUP) {
+            let bits = group.iter().map(|&place| self.bit(place));
+            let past = self.unless_due(due, bits.fold(0, |bits, bit| bits | bit));
+            for &place in group {
+                let done = self.unless_due(due, self.bit(place));
+                self.emitter.forget();
+                emit(self, place);
+                self.emitter.continue_in(done);
+            }
+            self.emitter.continue_in(past);
         }
-        self.emitter.begin(next);
+        if let Due::Word(slot) = due {
+            let all = self.emitter.load(slot);
+            let rest = self.emitter.and(all, !mask);
+            self.emitter.store(slot, rest);
+        }
+        self.emitter.continue_in(end);
+    }
+
+    fn bit(&self, place: usize) -> u64 {
+        1 << (self.plan.bit(place) % 64)
+    }
+
+    /// Continues if one of these bits is set, else jumps to the block that is returned.
+    fn unless_due(&mut self, due: Due, bits: u64) -> Block {
+        let word = match due {
+            Due::Word(slot) => self.emitter.load(slot),
+            Due::Taken(word) => word,
+        };
+        let some = self.emitter.and(word, bits);
+        let [go, past] = [self.emitter.block(), self.emitter.block()];
+        self.emitter.branch(some, go, past);
+        self.emitter.begin(go);
+        past
     }
 }
+
+/// Bits of the blocks that are due.
+#[derive(Clone, Copy)]
+enum Due {
+    /// Word of the slab: a block sets the bits of later ones, and all are cleared in the end.
+    Word(Slot),
+    /// Word that was taken before the first block runs.
+    Taken(Value),
+}
+
+/// Number of blocks that one test skips if none of them is due.
+const GROUP: usize = 6;
 
 /// Groups blocks by the word of `dirty` that has their bits: word, mask, blocks.
 fn words(plan: &Plan, blocks: &[usize]) -> Vec<(u32, u64, Vec<usize>)> {

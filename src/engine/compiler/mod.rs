@@ -4,6 +4,7 @@
 //! chooses which blocks are inlined and always run: see [`Code::compile`].
 
 mod block;
+mod choices;
 mod emit;
 mod flow;
 mod runs;

@@ -1,10 +1,11 @@
-use super::super::flat::{Flat, Instance, Node, Op, Place, Register};
+use super::super::flat::{Flat, Instance, Memory, Node, Op, Place, Port, Register, mask};
 use super::super::interpreter::{self, Counts};
 use super::super::layout::Spot;
 use super::super::passes;
 use super::super::plan::Plan;
-use super::super::random::{Case, Plain, cases};
+use super::super::random::{Case, Hold, Plain, cases};
 use super::{Code, CompileError, FRAME, PART};
+use proptest::collection::vec;
 use proptest::prelude::*;
 
 /// Returns a leaf or, after the leaves, a property, if the slab has it.
@@ -164,6 +165,90 @@ fn advanced(case: &Case) -> Result<(), TestCaseError> {
     Ok(())
 }
 
+/// Returns a circuit of one block: registers that choose among words, and a memory that some of them
+/// read. The seeds of a register are a tree of choices.
+fn chooser(width: u8, seeds: &[Vec<u8>]) -> Flat {
+    let mut flat = Flat {
+        inputs: vec![1, 1, 1, width],
+        instances: vec![Instance {
+            path: Vec::new(),
+            circuit: "chooser".to_owned(),
+        }],
+        ..Flat::default()
+    };
+    let mut add = |op, width| {
+        let instance = 0;
+        flat.nodes.push(Node {
+            op,
+            width,
+            instance,
+        });
+        flat.nodes.len() as u32 - 1
+    };
+    let ports = [0, 1, 2].map(|port| add(Op::Input(port), 1));
+    let inverted = ports.map(|port| add(Op::Not(port), 1));
+    let ons = [ports, inverted].concat();
+    let one = add(Op::Constant(1), width);
+    let mut words = vec![add(Op::Input(3), width)];
+    words.extend((0..seeds.len()).map(|register| add(Op::Register(register as u32), width)));
+    words.push(add(Op::Add(words[1], one), width));
+    words.push(add(Op::Add(words[1], words[2]), width));
+    words.push(add(Op::Read(0, words[2]), width));
+    let of = |list: &[u32], seed: u8| list[usize::from(seed) % list.len()];
+    for seeds in seeds {
+        // From the leaves to the root.
+        let mut level: Vec<u32> = seeds[..8].iter().map(|&seed| of(&words, seed)).collect();
+        for depth in [8, 12, 14] {
+            let sides = level.chunks(2).zip(&seeds[depth..]);
+            let choices = sides.map(|(sides, &seed)| match seed % 4 {
+                0 => sides[0],
+                _ => add(Op::Mux(of(&ons, seed / 4), sides[0], sides[1]), width),
+            });
+            level = choices.collect();
+        }
+        flat.registers.push(Register {
+            width,
+            power_on: 0,
+            next: level[0],
+            instance: 0,
+        });
+    }
+    flat.memories.push(Memory {
+        width,
+        contents: vec![0; 4],
+        port: Port::Ram {
+            enable: ons[0],
+            address: words[1],
+            data: words[3],
+        },
+        instance: 0,
+    });
+    let registers = (0..seeds.len()).map(|register| Place::Register(register as u32));
+    flat.leaves = registers
+        .chain((0..4).map(|word| Place::Word(0, word)))
+        .collect();
+    flat
+}
+
+fn choosers() -> impl Strategy<Value = Case> {
+    let seeds = vec(vec(any::<u8>(), 15), 2..6);
+    let hold = (vec((0..4usize, any::<u64>()), 0..4), 0..4u64);
+    (1..6u8, seeds, vec(hold, 8), any::<[bool; 2]>()).prop_map(|(width, seeds, holds, hot)| {
+        let flat = chooser(width, &seeds);
+        let held = holds.into_iter().map(|(changes, ticks)| {
+            let fit = |(port, word): (usize, u64)| (port, word & mask(flat.inputs[port]));
+            let changes = changes.into_iter().map(fit).collect();
+            Hold { changes, ticks }
+        });
+        Case {
+            stimulus: held.collect(),
+            wanted: vec![true; flat.leaves.len()],
+            hot: hot.to_vec(),
+            flat,
+        }
+    })
+}
+
 proptest! {
     #[test]
     fn the_interpreter_does_what_the_nodes_say(case in cases(true)) {
@@ -192,6 +277,11 @@ proptest! {
         single_pass: bool,
     ) {
         compiled(&case, part, single_pass)?;
+    }
+
+    #[test]
+    fn registers_that_choose_take_old_words(case in choosers()) {
+        compiled(&case, PART, false)?;
     }
 
     #[test]

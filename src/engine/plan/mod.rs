@@ -141,6 +141,13 @@ pub struct PlannedMemory {
     pub width: u8,
 }
 
+impl Block {
+    /// Returns the cost of running the block, in steps: its own, and those of finding it.
+    pub fn cost(&self) -> u64 {
+        self.steps.len() as u64 + 8
+    }
+}
+
 impl Plan {
     /// Plans a netlist; keeps the leaves that are `wanted` and, after them, the properties.
     pub fn of(flat: &Flat, wanted: &[bool]) -> Plan {

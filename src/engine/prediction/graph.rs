@@ -42,31 +42,32 @@ pub(super) struct Net {
     pub made: From,
 }
 
+/// Dependency graph of a plan.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Graph {
-    pub nodes: Vec<Node>,
-    pub nets: Vec<Net>,
+pub struct Graph {
+    pub(super) nodes: Vec<Node>,
+    pub(super) nets: Vec<Net>,
     /// First item of each edge block.
-    pub starts: Vec<u32>,
-    pub items: Vec<Item>,
+    pub(super) starts: Vec<u32>,
+    pub(super) items: Vec<Item>,
     /// By edge block: itself, and the blocks whose registers it reads.
-    pub suppliers: Vec<Vec<u64>>,
+    pub(super) suppliers: Vec<Vec<u64>>,
     /// Nets that must not change.
-    pub watched_nets: Vec<u32>,
+    pub(super) watched_nets: Vec<u32>,
     /// Per register `stride` words: a bit for each net that it moves, from `edge_word` on for each
     /// edge block, from `watched_word` on for each net in `watched_nets`.
-    pub touches: Vec<u64>,
-    pub stride: usize,
-    pub edge_word: usize,
-    pub watched_word: usize,
+    pub(super) touches: Vec<u64>,
+    pub(super) stride: usize,
+    pub(super) edge_word: usize,
+    pub(super) watched_word: usize,
     /// By register: true if it must not change.
-    pub held: Vec<bool>,
+    pub(super) held: Vec<bool>,
     /// By register: source of its next value.
-    pub nexts: Vec<From>,
+    pub(super) nexts: Vec<From>,
     /// By register: true if its next value depends on no other register and on no net.
-    pub alone: Vec<bool>,
+    pub(super) alone: Vec<bool>,
     /// One above the last slot of a register.
-    pub slots: usize,
+    pub(super) slots: usize,
 }
 
 /// Set of registers, one bit each.
@@ -100,6 +101,7 @@ pub(super) fn unite(set: &mut [u64], other: &[u64]) {
 }
 
 impl Graph {
+    /// Creates the graph; `held` gives by slot the nets and registers that must not change.
     pub fn new(plan: &Plan, held: &[bool]) -> Graph {
         let mut builder = Builder::new(plan);
         let mut trees = Vec::new();

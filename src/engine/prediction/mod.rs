@@ -20,17 +20,19 @@ mod tests;
 use super::flat::mask;
 use super::interpreter::put;
 use super::layout::Slot;
-use super::plan::{Plan, PlannedRegister};
-use graph::{Graph, bits, has, insert, unite};
+use super::plan::{Block, Plan, PlannedRegister};
+pub use graph::Graph;
+use graph::{bits, has, insert, unite};
 use pair::Line;
 use recipe::Recipe;
 use record::Recorder;
+use std::sync::Arc;
 use walk::{Known, Moving, Pairs, Stop, Words};
 
 /// Linear prediction of a plan's registers.
 #[derive(Debug, Clone)]
 pub struct Prediction {
-    graph: Graph,
+    graph: Arc<Graph>,
     stamp: u64,
     pair_stamp: u64,
     words: Vec<Known<u64>>,
@@ -67,13 +69,15 @@ pub struct Prediction {
     line_end: Option<(Slot, u64)>,
     /// Cost of the last attempt, in compiled steps.
     work: u64,
+    /// Costs of the edge blocks in steps.
+    costs: Vec<u64>,
 }
 
 /// Cost in compiled steps of starting an attempt, and of one node that it examines.
 const ATTEMPT: u64 = 200;
 const NODE: u64 = 24;
 /// Cost of recording a recipe, in evaluations of it.
-const RECORDING: u64 = 64;
+const RECORDING: u64 = 256;
 
 /// Number of recipes kept.
 const RECIPES: usize = 16;
@@ -82,11 +86,10 @@ const RECIPES: usize = 16;
 const INTERVALS: [u32; 2] = [2, 128];
 
 impl Prediction {
-    /// Creates the prediction of a plan; `held` gives by slot the nets and registers that must not
-    /// change.
-    pub fn new(plan: &Plan, held: &[bool]) -> Prediction {
-        let graph = Graph::new(plan, held);
+    /// Creates the prediction of a plan.
+    pub fn new(plan: &Plan, graph: Arc<Graph>) -> Prediction {
         let edges = plan.blocks.len() - plan.settling;
+        let edge_blocks = plan.blocks[plan.settling..].iter();
         Prediction {
             stamp: 0,
             pair_stamp: 0,
@@ -107,6 +110,7 @@ impl Prediction {
             end: u64::MAX,
             line_end: None,
             work: 0,
+            costs: edge_blocks.map(Block::cost).collect(),
             wait: 0,
             interval: INTERVALS[0],
             graph,
@@ -132,6 +136,13 @@ impl Prediction {
             self.end = until;
         }
         until
+    }
+
+    /// Returns the steps of a tick like that of the last attempt: those of its edge, and as many to
+    /// settle. They are fewer than those of other ticks, if registers only count.
+    pub fn idle_steps(&self) -> u64 {
+        let edge: u64 = bits(&self.due).map(|edge| self.costs[edge]).sum();
+        2 * edge
     }
 
     /// Returns the cost of the last attempt, in compiled steps.

@@ -1,7 +1,7 @@
 mod pair;
 mod runs;
 
-use super::Prediction;
+use super::{Graph, Prediction};
 use crate::engine::flat::{Flat, Id, Instance, Memory, Node, Op, Place, Port, Register};
 use crate::engine::interpreter::{self, Counts};
 use crate::engine::plan::Plan;
@@ -85,7 +85,7 @@ fn horizon(flat: &Flat, most: u64) -> u64 {
         &mut Counts::from(vec![0; plan.blocks.len()]),
     );
     let cold = vec![false; plan.blocks.len()];
-    let mut prediction = Prediction::new(&plan, &held(&plan));
+    let mut prediction = Prediction::new(&plan, Graph::new(&plan, &held(&plan)).into());
     prediction.horizon(&plan, &cold, &slab, most)
 }
 

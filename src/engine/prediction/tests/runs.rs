@@ -1,6 +1,6 @@
 //! Jumps compared with single ticks.
 
-use super::super::Prediction;
+use super::super::{Graph, Prediction};
 use super::held;
 use crate::engine::flat::{Flat, Id, Instance, Memory, Node, Op, Place, Port, Register, mask};
 use crate::engine::interpreter::{self, Counts};
@@ -81,7 +81,7 @@ fn run(case: &Case, short: &[u64], every: u64) -> Result<[u64; 2], TestCaseError
     let hot: Vec<bool> = (0..plan.blocks.len())
         .map(|block| case.hot[block % case.hot.len()])
         .collect();
-    let mut prediction = Prediction::new(&plan, &held(&plan));
+    let mut prediction = Prediction::new(&plan, Graph::new(&plan, &held(&plan)).into());
     // Recipes are recorded at once here.
     prediction.interval = 0;
     let start = || Run {
