@@ -40,10 +40,15 @@ impl Size {
             machines,
             ticks,
         } = self;
-        match axes {
-            0 => format!("{machines} machines, {ticks} ticks each"),
-            _ => format!("{axes} axes, {ticks} ticks"),
-        }
+        let plural = |count: usize, one: &str, many: &str| match count {
+            1 => format!("1 {one}"),
+            _ => format!("{count} {many}"),
+        };
+        let what = match axes {
+            0 => plural(machines, "machine", "machines"),
+            _ => plural(axes, "axis", "axes"),
+        };
+        format!("{what}, {ticks} ticks")
     }
 }
 

@@ -1,5 +1,7 @@
 //! The engine as its users drive it: ticks, resets, words that do not fit.
 
+#[cfg(feature = "jit")]
+use super::flat::Flat;
 use super::flat::mask;
 use super::random::{Case, Plain, cases};
 use super::{Engine, Program, Watch};
@@ -75,4 +77,28 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+#[cfg(feature = "jit")]
+fn a_clone_takes_over_code_that_another_compiles() {
+    let flat = Arc::new(Flat {
+        inputs: vec![4],
+        ..Flat::default()
+    });
+    let program = Arc::new(Program::planned(&flat, Watch::All, &[]));
+    let mut first = Engine::new(program);
+    let mut second = first.clone();
+    let mut interpreted = first.clone();
+    interpreted.interpret();
+    assert!(first.compile());
+    for engine in [&mut second, &mut interpreted] {
+        for _ in 0..256 {
+            engine.settle();
+            engine.edge();
+        }
+    }
+    let is_compiled = |engine: &Engine| format!("{engine:?}").contains("Code(");
+    assert!(is_compiled(&first) && is_compiled(&second));
+    assert!(!is_compiled(&interpreted));
 }

@@ -165,6 +165,10 @@ impl Tier {
         if self.due == u64::MAX || !self.ticks.is_multiple_of(COUNTED) {
             return;
         }
+        self.adopt();
+        if !matches!(self.backend, Backend::Interpreter) {
+            return;
+        }
         let steps = plan.blocks.iter().map(Block::cost);
         let counted = self.counts.iter().zip(steps);
         let work: u64 = counted.map(|(count, steps)| count * steps).sum();
