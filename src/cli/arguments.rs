@@ -60,6 +60,9 @@ pub struct Arguments {
     /// interpolator has none.
     #[arg(long)]
     pub segments: bool,
+    /// Also writes the names of states for Surfer, to .surfer/mappings beside the waves.
+    #[arg(long, conflicts_with = "no_vcd")]
+    pub surfer: bool,
     /// Shows the waves in GTKWave, or in Surfer if GTKWave is not installed.
     #[arg(long, conflicts_with = "no_vcd")]
     pub open: bool,

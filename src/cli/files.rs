@@ -5,6 +5,7 @@ use super::written::Written;
 use super::{Failure, warn};
 use motion_rtl::files::{self, AtomicFile, Claim, Directory, commit_all};
 use motion_rtl::input::MORE_FILES;
+use motion_rtl::trace::surfer::{FOLDER, Mapping};
 use serde::Serialize;
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -236,6 +237,16 @@ impl Files {
             }
             return self.write_as(&name, &text);
         }
+    }
+
+    /// Writes mapping files for Surfer, in the folder of the directory where it finds them.
+    pub fn write_mappings(&mut self, mappings: &[Mapping]) -> Result<(), Failure> {
+        let folder = self.directory().join(FOLDER);
+        for Mapping { file, text } in mappings {
+            let file = self.create_at("--surfer", &folder.join(file))?;
+            self.fill(file, text)?;
+        }
+        Ok(())
     }
 
     /// Takes the remarks on the files.

@@ -12,7 +12,7 @@ use motion_rtl::files::AtomicFile;
 use motion_rtl::hdl::Circuit;
 use motion_rtl::sim::{Described, Observer, RunError, Without};
 use motion_rtl::trace::{
-    Clock, LayoutError, OutputFile, SeriesFile, SeriesLayout, StimulusFile, WaveFile, gtkw,
+    Clock, LayoutError, OutputFile, SeriesFile, SeriesLayout, StimulusFile, WaveFile, gtkw, surfer,
 };
 use motion_rtl::verilog::Verilog;
 use std::io;
@@ -160,6 +160,10 @@ impl<'a> Traces<'a> {
             let save =
                 gtkw::save_file_with(circuit, self.clock, options, &dump, window, focus.overview);
             self.files.write_save(&save.map_err(io::Error::from)?)?;
+            if arguments.surfer {
+                let mappings = surfer::mappings(circuit, options).map_err(io::Error::from)?;
+                self.files.write_mappings(&mappings)?;
+            }
         }
         if let Some(series) = self.series {
             self.files.push(series.finish()?);

@@ -99,6 +99,8 @@ pub struct Declaration {
     pub role: Role,
     /// Kind and width.
     pub shape: Shape,
+    /// Number of bits behind the binary point, as declared; 0 for an integer.
+    pub fraction: usize,
     /// Bits at power-on, with all input ports low.
     pub power_on: u64,
     /// Declaration in `signals!`.
@@ -156,6 +158,8 @@ pub struct Declarations {
     /// Memories, ordered by their first word.
     pub memories: Vec<MemoryDeclaration>,
     path: Path,
+    /// Fraction bits of the next leaf.
+    fraction: usize,
 }
 
 impl Declarations {
@@ -247,6 +251,8 @@ pub(crate) trait Outline {
     fn leave(&mut self);
     /// Marks the next leaf or struct as element `index` of an array.
     fn element(&mut self, index: usize);
+    /// Sets the number of fraction bits of the next leaf.
+    fn fraction(&mut self, _bits: usize) {}
     /// Receives a leaf.
     fn leaf(&mut self, field: &'static Field, shape: Shape);
     /// Receives a memory of `words` words, each named after `label`.
@@ -263,6 +269,9 @@ impl Outline for Declarations {
     fn element(&mut self, index: usize) {
         self.path.element(index);
     }
+    fn fraction(&mut self, bits: usize) {
+        self.fraction = bits;
+    }
     fn leaf(&mut self, field: &'static Field, shape: Shape) {
         let name = self.path.name(field);
         let scopes = match self.leaves.last() {
@@ -274,6 +283,7 @@ impl Outline for Declarations {
             name,
             role: self.path.role(),
             shape,
+            fraction: std::mem::take(&mut self.fraction),
             power_on: 0,
             field,
             part: self.path.outermost_role(),
@@ -290,6 +300,7 @@ impl Outline for Declarations {
             name: String::new(),
             role: self.path.role(),
             shape: unsigned(width),
+            fraction: 0,
             power_on: 0,
             field: label,
             part: self.path.outermost_role(),

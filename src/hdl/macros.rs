@@ -4,6 +4,7 @@
 /// | field | meaning |
 /// |---|---|
 /// | `Bit`, `U(width)`, `I(width)` | a word of 1 to 64 bits |
+/// | `U(width, fraction)`, `I(width, fraction)` | the same; waves show the lowest `fraction` bits behind the binary point |
 /// | `Ram(address_width, data_width)` | a memory; `= &c.image` gives its power-on contents |
 /// | `Shift(stages, data_width)` | a shift register |
 /// | `[U(c.width); c.count]`, `[U(c.widths[k]); k in c.count]` | an array, a `Vec` |
@@ -221,6 +222,20 @@ macro_rules! hdl_make {
         let shape = $crate::netlist::signed($width);
         let token = $source.word($field, shape, $crate::hdl_power_on!($($power_on)?));
         <$v as $crate::hdl::View>::i(token, shape.width)
+    }};
+    (
+        $v:ident; $source:ident; $field:expr; [$($power_on:expr)?];
+        U($width:expr, $fraction:expr)
+    ) => {{
+        $source.fraction($fraction);
+        $crate::hdl_make!($v; $source; $field; [$($power_on)?]; U($width))
+    }};
+    (
+        $v:ident; $source:ident; $field:expr; [$($power_on:expr)?];
+        I($width:expr, $fraction:expr)
+    ) => {{
+        $source.fraction($fraction);
+        $crate::hdl_make!($v; $source; $field; [$($power_on)?]; I($width))
     }};
     ($v:ident; $source:ident; $field:expr; [$($contents:expr)?]; Ram($address:expr, $width:expr)) => {
         <$v as $crate::hdl::View>::ram($crate::hdl::ram(

@@ -40,6 +40,9 @@ impl Source for Shown<'_> {
     fn element(&mut self, index: usize) {
         self.outline.element(index);
     }
+    fn fraction(&mut self, bits: usize) {
+        self.outline.fraction(bits);
+    }
     fn pass(&mut self, pass: Pass) {
         self.pass = pass;
     }

@@ -136,6 +136,8 @@ pub trait Source {
     fn leave(&mut self) {}
     /// Marks the next leaf or struct as element `index` of an array.
     fn element(&mut self, _index: usize) {}
+    /// Sets the number of fraction bits of the next word, which are 0 otherwise.
+    fn fraction(&mut self, _bits: usize) {}
     /// Sets the pass of the leaves to come.
     fn pass(&mut self, _pass: Pass) {}
     /// Returns the current pass.

@@ -5,11 +5,14 @@ use crate::hdl::{Value, View, signals};
 use crate::sim::Beside;
 use fixed::types::I56F8;
 
+/// Fraction bits of a position.
+pub(crate) const FINE: usize = I56F8::FRAC_NBITS as usize;
+
 signals! { for Axes as _c;
     /// True motion of one axis.
     pub struct AxisSignals {
-        /// True position in 1/256 of a count.
-        pub position: I(48) as Analog,
+        /// True position in counts.
+        pub position: I(48, FINE) as Analog,
         /// True speed in counts a second.
         pub speed: I(32) as Analog,
         /// The driver's torque in thousandths of a newton metre.
@@ -59,8 +62,8 @@ impl AxisSignals<Value> {
 signals! { for Body as _c;
     /// True motion of a braked body.
     pub struct BodySignals {
-        /// True position in 1/256 of a count.
-        pub position: I(48) as Analog,
+        /// True position in counts.
+        pub position: I(48, FINE) as Analog,
         /// True speed in counts a second.
         pub speed: I(32) as Analog,
         /// The brake is on: its signal has stood for the dead time.
@@ -105,12 +108,12 @@ impl BodySignals<Value> {
 signals! { for Machine as _c;
     /// True motion of a motor with an elastic load.
     pub struct TwoMassSignals {
-        /// True position of the motor in 1/256 of a count.
-        pub position: I(48) as Analog,
+        /// True position of the motor in counts.
+        pub position: I(48, FINE) as Analog,
         /// True speed of the motor in counts a second.
         pub speed: I(32) as Analog,
-        /// True position of the load in 1/256 of a count.
-        pub load_position: I(48) as Analog,
+        /// True position of the load in counts.
+        pub load_position: I(48, FINE) as Analog,
         /// By how much the motor is ahead of the load, in millionths of a radian.
         pub twist: I(32) as Analog,
         /// The amplifier's torque in thousandths of a newton metre.

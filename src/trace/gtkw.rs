@@ -22,6 +22,21 @@ const ANALOG_ROW: u32 = 1 << 17;
 const CLOSED: u32 = 1 << 22;
 const GROUP_BEGIN: u32 = 1 << 23;
 const GROUP_END: u32 = 1 << 24;
+const FIXED_POINT: u32 = 1 << 30;
+
+// Colours of a trace, numbered as in GTKWave's color.h.
+const RED: u32 = 1;
+const ORANGE: u32 = 2;
+const YELLOW: u32 = 3;
+const GREEN: u32 = 4;
+const VIOLET: u32 = 7;
+
+/// Words in the names of bits that report an error.
+const ERRORS: [&str; 7] = [
+    "error", "fault", "late", "lost", "missed", "overrun", "refused",
+];
+/// Greatest number of fraction bits that GTKWave shows.
+const FRACTION: usize = 62;
 
 /// Greatest number of signals in a group that is open at first.
 const OPEN: usize = 16;
@@ -43,8 +58,9 @@ const FRAME: f64 = 200.0;
 /// Returns the save file of a circuit's dump named `dump`: `<stem>.gtkw` beside `<stem>.vcd` or
 /// `<stem>.fst`.
 ///
-/// `clk` comes first, then input and output ports, then a group for the rest of the circuit, and
-/// one for every scope in it. Large groups and those below the first level are closed. Curves are
+/// Input ports and `clk` come first, then output ports, then a group for the rest of the circuit,
+/// and one for every scope in it. Each role has its colour; a state is shown by name, and a word
+/// with fraction bits as a decimal fraction. Large groups and those below the first level are closed. Curves are
 /// scaled to the ticks in the window, which are those of `focus`. Memories of more than 64 words
 /// and shift registers of more than 256 stages are not listed. The two files may be moved
 /// together.
@@ -61,8 +77,8 @@ pub fn save_file(
     save_file_with(circuit, clock, options, dump, focus, &[])
 }
 
-/// Returns a save file as [`save_file`] does, with an overview after `clk`: signals by their paths
-/// within the circuit. Paths that are not in the dump are left out.
+/// Returns a save file as [`save_file`] does, with an overview on top, which ends with `clk`:
+/// signals by their paths within the circuit. Paths that are not in the dump are left out.
 ///
 /// # Errors
 /// Returns the errors of [`Vcd::new`](super::Vcd::new).
@@ -155,6 +171,9 @@ impl Save<'_> {
         for (leaf, selected) in self.layout.leaves.iter().zip(&self.layout.selected) {
             if *selected {
                 let digits = match leaf.field.format {
+                    Format::States(states) => {
+                        states.iter().map(|state| state.len()).max().unwrap_or(0)
+                    }
                     Format::Hex => leaf.shape.width.div_ceil(4),
                     // A decimal digit takes about 3.3 bits; there may be a sign.
                     _ => leaf.shape.width * 3 / 10 + 2,
@@ -170,13 +189,13 @@ impl Save<'_> {
     fn top(&mut self, overview: &[usize]) {
         let layout = self.layout;
         let top = &layout.top;
-        self.trace(BINARY | RIGHT, format_args!("{}.{CLK}", top.name));
-        if !overview.is_empty() {
-            self.comment("");
+        let has_overview = !overview.is_empty();
+        if has_overview {
             self.comment("overview");
             for &index in overview {
                 self.leaf(&layout.leaves[index], true);
             }
+            self.clk();
         }
         let leaves = |wanted: fn(&Declaration) -> bool| -> Vec<usize> {
             let own = top.leaves.iter().copied();
@@ -185,24 +204,31 @@ impl Save<'_> {
         let ports_in = leaves(|leaf| leaf.role == Role::Input);
         let ports_out = leaves(|leaf| leaf.role != Role::Input && leaf.field.public);
         let inside = leaves(|leaf| leaf.role != Role::Input && !leaf.field.public);
-        for (title, leaves) in [("ports in", ports_in), ("ports out", ports_out)] {
-            if leaves.is_empty() {
+        for (title, leaves, clk) in [
+            ("ports in", ports_in, !has_overview),
+            ("ports out", ports_out, false),
+        ] {
+            if leaves.is_empty() && !clk {
                 continue;
             }
-            self.comment("");
+            self.gap();
             if leaves.len() > OPEN {
                 self.group(title, true, |save| save.leaves(&leaves));
             } else {
                 self.comment(title);
                 self.leaves(&leaves);
             }
+            // Below a group that is closed, it stays visible.
+            if clk {
+                self.clk();
+            }
         }
         if !inside.is_empty() {
-            self.comment("");
+            self.gap();
             self.group("inside", inside.len() > OPEN, |save| save.leaves(&inside));
         }
         for scope in &top.scopes {
-            self.comment("");
+            self.gap();
             self.scope(scope, 1);
         }
     }
@@ -243,9 +269,9 @@ impl Save<'_> {
         } else {
             (0, 0)
         };
-        self.trace(GROUP_BEGIN | BLANK | begin, format_args!("-{title}"));
+        self.row(GROUP_BEGIN | BLANK | begin, format_args!("-{title}"));
         fill(self);
-        self.trace(GROUP_END | BLANK | end, format_args!("-{title}"));
+        self.row(GROUP_END | BLANK | end, format_args!("-{title}"));
     }
 
     fn leaves(&mut self, leaves: &[usize]) {
@@ -255,41 +281,70 @@ impl Save<'_> {
         }
     }
 
+    fn clk(&mut self) {
+        let top = &self.layout.top.name;
+        self.row(BINARY | RIGHT, format_args!("{top}.{CLK}"));
+    }
+
     /// Adds a signal; with `whole` by its path within the circuit instead of its name.
     fn leaf(&mut self, leaf: &Declaration, whole: bool) {
-        let flags = flags(leaf);
-        let range = match leaf.shape.width {
-            1 => String::new(),
-            width => format!("[{}:0]", width - 1),
-        };
         // GTKWave shows the text after the last dot of a path, or of an alias before it.
         let alias = |rest: &str| match whole && leaf.scopes.len() > 1 {
             true => format!("+{{{}{rest}}} ", within(leaf, "/")),
             false => String::new(),
         };
-        let shown = alias(&range);
-        self.trace(flags, format_args!("{shown}{}{range}", leaf.path()));
-        if flags & ANALOG_STEP != 0 {
-            for _ in 0..ANALOG_ROWS {
-                self.trace(ANALOG_ROW, format_args!("-"));
-            }
-        }
         if let Some(name) = companion(leaf) {
             let (shown, scope) = (alias("_name"), leaf.scopes.join("."));
-            self.trace(ASCII | RIGHT, format_args!("{shown}{scope}.{name}"));
+            self.signal(leaf, ASCII | RIGHT, format_args!("{shown}{scope}.{name}"));
+            return;
+        }
+        let flags = flags(leaf);
+        let range = match leaf.shape.width {
+            1 => String::new(),
+            width => format!("[{}:0]", width - 1),
+        };
+        let shown = alias(&range);
+        self.signal(leaf, flags, format_args!("{shown}{}{range}", leaf.path()));
+        if flags & ANALOG_STEP != 0 {
+            for _ in 0..ANALOG_ROWS {
+                self.row(ANALOG_ROW, format_args!("-"));
+            }
         }
     }
 
     fn comment(&mut self, text: &str) {
-        self.trace(BLANK, format_args!("-{text}"));
+        self.row(BLANK, format_args!("-{text}"));
     }
 
-    fn trace(&mut self, flags: u32, line: std::fmt::Arguments<'_>) {
+    /// Adds an empty row between two groups.
+    fn gap(&mut self) {
+        if self.flags.is_some() {
+            self.comment("");
+        }
+    }
+
+    /// Adds a row in the colour of a signal's role, with its fraction bits.
+    fn signal(&mut self, leaf: &Declaration, flags: u32, line: std::fmt::Arguments<'_>) {
+        self.display(flags);
+        // GTKWave takes a colour for a single row.
+        self.line(format_args!("[color] {}", color(leaf)));
+        if flags & FIXED_POINT != 0 {
+            self.line(format_args!("[fpshift_count] {}", leaf.fraction));
+        }
+        self.line(line);
+    }
+
+    fn row(&mut self, flags: u32, line: std::fmt::Arguments<'_>) {
+        self.display(flags);
+        self.line(line);
+    }
+
+    /// Sets the flags of the rows to come.
+    fn display(&mut self, flags: u32) {
         if self.flags != Some(flags) {
             self.flags = Some(flags);
             self.line(format_args!("@{flags:x}"));
         }
-        self.line(line);
     }
 }
 
@@ -300,11 +355,26 @@ fn within(leaf: &Declaration, joint: &str) -> String {
     path.join(joint)
 }
 
+fn color(leaf: &Declaration) -> u32 {
+    let is_error = |word| ERRORS.contains(&word);
+    match leaf.role {
+        _ if leaf.shape.kind == Kind::Bit && leaf.name.split('_').any(is_error) => RED,
+        Role::Input => YELLOW,
+        _ if leaf.field.public => GREEN,
+        Role::Register => ORANGE,
+        Role::Net => VIOLET,
+    }
+}
+
 fn flags(leaf: &Declaration) -> u32 {
     let number = match leaf.shape.kind {
         Kind::Bit => return BINARY | RIGHT,
         Kind::Unsigned => DECIMAL | RIGHT,
         Kind::Signed => SIGNED | RIGHT,
+    };
+    let number = match leaf.fraction {
+        1..=FRACTION => number | FIXED_POINT,
+        _ => number,
     };
     match leaf.field.format {
         Format::Hex => HEX | RIGHT,

@@ -1,4 +1,4 @@
-//! Waves of a run: VCD and FST dumps with GTKWave save files, recordings, text waves, executable
+//! Waves of a run: VCD and FST dumps with GTKWave save files, mapping files for Surfer, recordings, text waves, executable
 //! timing charts, and stimulus files.
 //!
 //! Tick n is sampled at time n·P with `clk` high. `clk` falls half a period later, and the
@@ -18,6 +18,7 @@ mod record;
 mod section;
 mod series;
 mod stimulus_file;
+pub mod surfer;
 pub mod text;
 pub(crate) mod value;
 mod vcd;

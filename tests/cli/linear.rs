@@ -398,6 +398,26 @@ fn the_picture_says_what_it_shows() {
 }
 
 #[test]
+fn surfer_finds_the_names_of_states_beside_the_waves() {
+    let bench = Bench::with("l.hpgl", LINE);
+    let only = "controller.interpolator.pattern";
+    let run = ["run", "l.hpgl", "--only", only, "--out", "o"];
+    bench.succeed(&[&run[..], &LINEAR].concat());
+    assert!(!bench.path("o/.surfer").exists());
+    let said = bench.succeed(&[&run[..], &LINEAR, &["--surfer"]].concat());
+    let phase = format!("{only}.trapezoid.phase");
+    let file = format!("o/.surfer/mappings/{phase}.mapping");
+    assert!(said.contains(&format!("wrote {file} (")), "{said}");
+    let table = format!("\nName = {phase}\nBits = 2\n0 accelerate\n1 steady\n");
+    let text = bench.read(&file);
+    assert!(text.contains(&table), "{text}");
+    bench.refuse_with(&["run", "l.hpgl", "--surfer", "--no-vcd"], |stderr| {
+        let text = "error: the argument '--surfer' cannot be used with";
+        assert!(stderr.starts_with(text), "{stderr}");
+    });
+}
+
+#[test]
 fn waves_have_the_window_and_the_scopes_that_are_asked_for() {
     let bench = Bench::with("l.hpgl", LINE);
     let arguments = ["run", "l.hpgl", "--from", "500", "--to", "3000"];

@@ -214,7 +214,7 @@ fn the_files_of_a_run() {
         assert!(overview.contains(signal), "{signal}: {overview}");
     }
     let shown = overview.lines().filter(|line| line.contains("machine."));
-    assert_eq!(shown.count(), 28, "{overview}");
+    assert_eq!(shown.count(), 30, "{overview}");
     assert!(overview.contains("\n+{enables/sample} machine.enables.sample\n"));
     for group in [
         "enables",

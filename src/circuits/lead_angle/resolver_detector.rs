@@ -64,7 +64,7 @@ signals! { for ResolverDetector as c;
     /// Output ports.
     pub struct Net {
         /// Change of the angle per conversion, in units of 2^−(A + 2·G) pitch.
-        pub speed: I(c.converter.tracking.phase()) as Analog,
+        pub speed: I(c.converter.tracking.phase(), c.converter.tracking.phase()) as Analog,
         /// High for one tick: `position` is a new sample. CK of the memory 11.
         pub sample: Bit,
         /// Dx: place in the pitch, rounded down, plus the counts of whole pitches; wraps.

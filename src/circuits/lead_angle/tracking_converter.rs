@@ -78,9 +78,9 @@ signals! { for TrackingConverter as c;
     /// Output ports.
     pub struct Net {
         /// φ: angle, in units of 2^−A pitch.
-        pub angle: U(c.tracking.angle) as Analog,
+        pub angle: U(c.tracking.angle, c.tracking.angle) as Analog,
         /// Change of the angle per conversion, in units of 2^−(A + 2·G) pitch.
-        pub speed: I(c.tracking.phase()) as Analog,
+        pub speed: I(c.tracking.phase(), c.tracking.phase()) as Analog,
         /// The angle is taken as a place.
         pub take: Bit,
         /// The angle is invalid: there is no signal, or the loop is not locked.

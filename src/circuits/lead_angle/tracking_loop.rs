@@ -101,9 +101,9 @@ signals! { for TrackingLoop as c;
     /// Flip-flops.
     pub struct Reg {
         /// φ, in units of 2^−(A + 2·G) pitch; wraps. The upper A bits are the angle.
-        pub phase: U(c.phase()) as Analog = 0,
+        pub phase: U(c.phase(), c.phase()) as Analog = 0,
         /// Change of the phase per conversion, in units of 2^−(A + 2·G) pitch; wraps.
-        pub speed: I(c.phase()) as Analog = 0,
+        pub speed: I(c.phase(), c.phase()) as Analog = 0,
         /// Conversions since power-on; stops at its greatest value.
         settled: U(c.settling) = 0,
     }

@@ -66,7 +66,7 @@ signals! { for ArcAngle as c;
         /// Partial product, scaled to the weight of the next bit.
         product: U(c.widths.product()) = 0,
         /// Angle in units of 2^−H turn; valid from `done` on.
-        pub angle: U(c.widths.angle) as Analog = 0,
+        pub angle: U(c.widths.angle, c.widths.angle) as Analog = 0,
         /// The angle is valid in this tick.
         pub done: Bit = 0,
     }

@@ -32,11 +32,11 @@ signals! { for ControlledAxis as c;
         /// Sets the servo response to the command, at rest; has priority over `step`.
         pub preset: Bit,
         /// Pc: the position command.
-        pub command: I(c.servo.widths.position),
+        pub command: I(c.servo.widths.position, c.servo.widths.guard()),
         /// Reference point and servo responses are valid.
         pub correct: Bit,
         /// Pr: the reference point, or the error feedback.
-        pub target: I(c.servo.widths.position),
+        pub target: I(c.servo.widths.position, c.servo.widths.guard()),
         /// Channel A of the encoder, asynchronous.
         pub a: Bit,
         /// Channel B of the encoder, asynchronous.
@@ -63,9 +63,9 @@ signals! { for ControlledAxis as c;
         /// High for one tick: the servo response has a new value.
         pub answered: Bit,
         /// E: correction.
-        pub deviation: I(c.servo.widths.position) as Analog,
+        pub deviation: I(c.servo.widths.position, c.servo.widths.guard()) as Analog,
         /// Pd: corrected position command.
-        pub corrected: I(c.servo.widths.position) as Analog,
+        pub corrected: I(c.servo.widths.position, c.servo.widths.guard()) as Analog,
         /// Torque command.
         pub torque: I(c.servo.widths.torque) as Analog,
         /// The torque is limited.

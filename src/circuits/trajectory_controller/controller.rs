@@ -201,7 +201,7 @@ signals! { for TrajectoryController as c;
         /// Number of the last segment of the path.
         pub last: U(c.widths.segment),
         /// L: length of the path, in guard units.
-        pub path_end: I(c.widths.point),
+        pub path_end: I(c.widths.point, c.widths.guard()),
         /// Interpolation period in ticks; 0 counts as 1.
         pub period: U(c.widths.period),
         /// K1 and K2 of the tangential response.
@@ -226,7 +226,7 @@ signals! { for TrajectoryController as c;
         /// High: position commands come from `given_command`, not from the axis distribution.
         pub given: Bit,
         /// External position command of this axis, in guard units; constant during a period.
-        pub given_command: [I(c.widths.point); c.axes] as Elements(of_axes!("given_command")),
+        pub given_command: [I(c.widths.point, c.widths.guard()); c.axes] as Elements(of_axes!("given_command")),
         /// Channel A of this axis' encoder, asynchronous.
         pub a: [Bit; c.axes] as Elements(of_axes!("a")),
         /// Channel B of this axis' encoder, asynchronous.

@@ -58,7 +58,7 @@ signals! { for Servo as c;
         /// paths.
         pub preset: Bit,
         /// Pd: corrected position command in guard units; constant during a step.
-        pub target: I(c.widths.position),
+        pub target: I(c.widths.position, c.widths.guard()),
         /// Channel A of the encoder, asynchronous.
         pub a: Bit,
         /// Channel B of the encoder, asynchronous.

@@ -61,6 +61,12 @@ pub struct ServoWidths {
 }
 
 impl ServoWidths {
+    /// Bits of a position below the count.
+    #[must_use]
+    pub const fn guard(&self) -> usize {
+        self.position.saturating_sub(self.count)
+    }
+
     /// Width of the arithmetic's sums, and of its scaler's values.
     #[must_use]
     pub const fn product(&self) -> usize {
@@ -111,11 +117,11 @@ signals! { for ServoArithmetic as c;
         /// a running step.
         pub clear: Bit,
         /// Position of the reference model, in guard units.
-        pub model_position: I(c.widths.position),
+        pub model_position: I(c.widths.position, c.widths.guard()) as Analog,
         /// Velocity of the reference model, per period.
-        pub model_velocity: I(c.widths.position),
+        pub model_velocity: I(c.widths.position, c.widths.guard()),
         /// Acceleration of the reference model, per period squared.
-        pub model_acceleration: I(c.widths.position),
+        pub model_acceleration: I(c.widths.position, c.widths.guard()),
         /// Position of the motor in counts; sampled with `step`.
         pub feedback: I(c.widths.count),
         /// Gains of the loops.
@@ -159,7 +165,7 @@ signals! { for ServoArithmetic as c;
         /// Feedback in guard units.
         actual: I(c.widths.product()),
         /// 26: position error, in guard units.
-        position_error: I(c.widths.product()),
+        position_error: I(c.widths.product(), c.widths.guard()) as Analog,
         /// Result of the scaler with its sign.
         product: I(c.widths.product()),
         /// Acceleration of the model.

@@ -67,7 +67,7 @@ impl Widths {
     /// G: bits below the count.
     #[must_use]
     pub const fn guard(&self) -> usize {
-        self.point - self.position
+        self.point.saturating_sub(self.position)
     }
 
     /// Fraction bits of the servo controls' gains, except the position gain.

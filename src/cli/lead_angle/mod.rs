@@ -34,11 +34,12 @@ const TICK_S: f64 = 50e-9;
 const CKS_SHOWN: u64 = 400;
 
 /// Signals at the top of the save file.
-const OVERVIEW: [&str; 14] = [
+const OVERVIEW: [&str; 15] = [
     "ck",
     "position",
     "predicted",
     "target",
+    "comparator.difference",
     "lead_source.lead_time",
     "lead_source.history.tap",
     "lead_source.history.ratio",
@@ -52,11 +53,12 @@ const OVERVIEW: [&str; 14] = [
 ];
 
 /// Signals at the top of the save file if the lead follows the speed.
-const OVERVIEW_BY_SPEED: [&str; 11] = [
+const OVERVIEW_BY_SPEED: [&str; 12] = [
     "ck",
     "position",
     "predicted",
     "target",
+    "comparator.difference",
     "lead_source.speed",
     "placement.lead",
     "drive",

@@ -40,7 +40,7 @@ const TICK_S: f64 = 50e-9;
 const SCANS_SHOWN: u64 = 60;
 
 /// Signals at the top of the save file.
-const OVERVIEW: [&str; 11] = [
+const OVERVIEW: [&str; 13] = [
     "scan",
     "interpolator.pattern.trapezoid.phase",
     "interpolator.pattern.trapezoid.level",
@@ -50,12 +50,14 @@ const OVERVIEW: [&str; 11] = [
     "command_y",
     "feedback_x",
     "feedback_y",
+    "loop_x.deviation",
+    "loop_y.deviation",
     "reference_x",
     "reference_y",
 ];
 
 /// Rows on top of the save file of the conventional system.
-const CONVENTIONAL_OVERVIEW: [&str; 11] = [
+const CONVENTIONAL_OVERVIEW: [&str; 13] = [
     "scan",
     "interpolator.pattern_x.trapezoid.phase",
     "interpolator.pattern_x.trapezoid.level",
@@ -65,6 +67,8 @@ const CONVENTIONAL_OVERVIEW: [&str; 11] = [
     "command_y",
     "feedback_x",
     "feedback_y",
+    "loop_x.deviation",
+    "loop_y.deviation",
     "reference_x",
     "reference_y",
 ];

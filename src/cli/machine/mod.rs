@@ -38,7 +38,7 @@ const SAMPLES_SHOWN: u64 = 300;
 const SAMPLES_BEFORE: u64 = 20;
 
 /// Signals at the top of the save file.
-const OVERVIEW: [&str; 28] = [
+const OVERVIEW: [&str; 29] = [
     "enables.unit",
     "enables.scan",
     "enables.ck",
@@ -58,6 +58,7 @@ const OVERVIEW: [&str; 28] = [
     "drive",
     "lead_angle.predicted",
     "lead_angle.target",
+    "lead_angle.comparator.difference",
     "lead_angle.fire",
     "brake",
     "lift_busy",

@@ -41,22 +41,24 @@ const TICK_S: f64 = 100e-9;
 const PERIODS_SHOWN: u64 = 4;
 
 /// Signals at the top of the save file, from the length along the path to the loads.
-const OVERVIEW: [&str; 20] = [
+const OVERVIEW: [&str; 22] = [
     "sampled",
     "fresh",
     "progress.length",
     "tangential.integrators.position",
     "x.command",
-    "x.corrector.correction",
-    "x.servo.model.integrators.position",
+    "x.deviation",
+    "x.servo.arithmetic.model_position",
+    "x.servo.arithmetic.position_error",
     "x.servo.arithmetic.state",
     "torque_x",
     "position_x",
     "plant.x.load_position",
     "plant.x.twist",
     "y.command",
-    "y.corrector.correction",
-    "y.servo.model.integrators.position",
+    "y.deviation",
+    "y.servo.arithmetic.model_position",
+    "y.servo.arithmetic.position_error",
     "y.servo.arithmetic.state",
     "torque_y",
     "position_y",

@@ -2,7 +2,7 @@
 
 use crate::circuits::pulse_interpolator::AXIS_NAMES;
 use crate::hdl::{Value, View, signals};
-use crate::plant::waves::fine;
+use crate::plant::waves::{FINE, fine};
 use crate::plant::{StepMotor, StepMotorParameters};
 use crate::settings::SettingError;
 use crate::sim::Beside;
@@ -11,12 +11,12 @@ use serde::Serialize;
 signals! { for StepMotors as _c;
     /// True motion of a step motor.
     pub struct StepMotorSignals {
-        /// Position in 1/256 of a step of the driver.
-        pub position: I(48) as Analog,
+        /// Position in steps of the driver.
+        pub position: I(48, FINE) as Analog,
         /// Speed in steps of the driver a second.
         pub speed: I(32) as Analog,
-        /// Lead of the field over the rotor, in 1/256 of a full step.
-        pub ahead: I(48) as Analog,
+        /// Lead of the field over the rotor, in full steps.
+        pub ahead: I(48, FINE) as Analog,
     }
 }
 

@@ -11,12 +11,17 @@ const GEOMETRY: u8 = 3;
 const HIERARCHY_LZ4: u8 = 6;
 
 /// Entry kinds in the hierarchy.
+const ATTRIBUTE: u8 = 252;
 const SCOPE: u8 = 254;
 const UP: u8 = 255;
 const MODULE: u8 = 0;
 const REG: u8 = 5;
 const WIRE: u8 = 16;
 const STRING: u8 = 21;
+
+/// Attribute that names the values of a variable.
+const MISC: u8 = 0;
+const ENUM_TABLE: u8 = 7;
 
 /// Directions of a variable.
 const NO_DIRECTION: u8 = 0;
@@ -91,6 +96,7 @@ pub fn declarations(out: &mut Vec<u8>, layout: &Layout) -> (Vec<Variable>, u64) 
         widths,
         variables,
         scopes,
+        ..
     } = hierarchy;
 
     let packed = lz4_flex::block::compress(&text);
@@ -116,6 +122,8 @@ struct Hierarchy {
     widths: Vec<u8>,
     variables: Vec<Variable>,
     scopes: u64,
+    /// Lists of states so far, with the width of their codes.
+    states: Vec<(&'static [&'static str], usize)>,
 }
 
 impl Hierarchy {
@@ -145,6 +153,9 @@ impl Hierarchy {
                 1 => leaf.name.clone(),
                 _ => format!("{} [{}:0]", leaf.name, width - 1),
             };
+            if let Format::States(names) = leaf.field.format {
+                self.states(&leaf.name, names, width);
+            }
             self.variable([kind, direction], &name, bits);
             if let (Format::States(names), Some(name)) = (leaf.field.format, companion(leaf)) {
                 let names = Variable::Names { leaf: index, names };
@@ -155,6 +166,35 @@ impl Hierarchy {
             self.scope(inner, layout, false);
         }
         self.text.push(UP);
+    }
+
+    /// Names the values of the next variable. A list of states is written once, called `name`, and
+    /// has a number, which counts from 1.
+    fn states(&mut self, name: &str, names: &'static [&'static str], width: usize) {
+        let known = self.states.iter().position(|list| *list == (names, width));
+        let number = known.unwrap_or(self.states.len()) as u64 + 1;
+        if known.is_none() {
+            self.states.push((names, width));
+            // A state beyond the width has no code.
+            let coded: Vec<_> = (0..1u128 << width).zip(names).collect();
+            let mut table = format!("{name} {}", coded.len());
+            for (_, state) in &coded {
+                table.push(' ');
+                table.extend(state.chars().flat_map(escaped));
+            }
+            for (code, _) in &coded {
+                table += &format!(" {code:0width$b}");
+            }
+            self.attribute(&table, number);
+        }
+        self.attribute("", number);
+    }
+
+    fn attribute(&mut self, table: &str, number: u64) {
+        self.text.extend([ATTRIBUTE, MISC, ENUM_TABLE]);
+        self.text.extend(table.bytes());
+        self.text.push(0);
+        unsigned(&mut self.text, number);
     }
 
     fn variable(&mut self, kind_and_direction: [u8; 2], name: &str, variable: Variable) {
@@ -169,6 +209,12 @@ impl Hierarchy {
         unsigned(&mut self.widths, geometry);
         self.variables.push(variable);
     }
+}
+
+/// Returns a character of a table, after a backslash if C has an escape for it.
+fn escaped(char: char) -> impl Iterator<Item = char> {
+    let escape = matches!(char, '\\' | '\'' | '"' | '?').then_some('\\');
+    escape.into_iter().chain([char])
 }
 
 impl Variable {

@@ -30,8 +30,8 @@ fn the_files_are_those_that_are_said_and_the_same_twice() {
     }
     // Position and prediction are curves; the history is a group with its stages in one.
     let after = |text: &str| &save[save.find(text).unwrap_or_else(|| panic!("no {text}"))..];
-    assert!(after("@8420\ncompensator.position[").contains("@20000"));
-    assert!(save.contains("@8420\ncompensator.predicted["));
+    assert!(after("@8420\n[color] 4\ncompensator.position[").contains("@20000"));
+    assert!(save.contains("@8420\n[color] 4\ncompensator.predicted["));
     let history = after("-history\n");
     let end = history[1..].find("-history\n").unwrap();
     assert!(history[..end].contains("-stages\n"));

@@ -368,7 +368,7 @@ fn the_conventional_system_can_be_in_the_waves() {
             overview.contains("conventional_compensator.lead_source.speed["),
             "{overview}"
         );
-        assert_eq!(overview.matches("conventional_compensator.").count(), 11);
+        assert_eq!(overview.matches("conventional_compensator.").count(), 13);
         let text = bench.succeed(&run);
         let said = format!("complete by standstill, lead by {lead}\n");
         assert!(text.contains(&said), "{text}");

@@ -585,8 +585,8 @@ fn the_overview_is_whole() {
     let rows = overview
         .lines()
         .filter(|line| line.contains("trajectory_controller."));
-    // Twenty, and two states by name.
-    assert_eq!(rows.count(), 22, "{overview}");
+    // The last one is `clk`.
+    assert_eq!(rows.count(), 23, "{overview}");
 }
 
 /// As the note on errors that are fed back has it.

@@ -67,6 +67,22 @@ fn every_signal_is_as_in_the_vcd_at_every_time() {
 }
 
 #[test]
+fn states_have_a_table_of_their_names() {
+    let [vcd, fst] = both(1, clock(), &Options::default());
+    let (vcd, fst) = (reader::read(&vcd), reader::read(&fst));
+    for (name, variable) in &fst.variables {
+        let states: Vec<_> = variable.states.iter().collect();
+        let expected = [("00", "IDLE"), ("01", "RUN"), ("10", "STOP")];
+        let expected = expected.map(|(code, name)| (code.to_owned(), name.to_owned()));
+        match name.ends_with(".phase") {
+            true => assert_eq!(states, expected.iter().collect::<Vec<_>>(), "{name}"),
+            false => assert!(states.is_empty(), "{name}"),
+        }
+        assert!(vcd.variables[name].states.is_empty(), "{name}");
+    }
+}
+
+#[test]
 fn windows_selections_and_clocks_are_as_in_the_vcd() {
     let cases = [
         (100..140, vec![], 50_000_000),

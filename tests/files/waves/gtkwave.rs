@@ -33,8 +33,16 @@ fn shown(leaf: &Declaration, bits: u64) -> String {
     match (leaf.shape.kind, leaf.field.format) {
         (Kind::Bit, _) => bits.to_string(),
         (_, Format::Hex) => format!("{bits:0digits$X}", digits = width.div_ceil(4)),
-        (Kind::Signed, _) => ((bits << (64 - width)) as i64 >> (64 - width)).to_string(),
-        (Kind::Unsigned, _) => bits.to_string(),
+        (kind, _) => {
+            let number = match kind {
+                Kind::Signed => i128::from((bits << (64 - width)) as i64 >> (64 - width)),
+                _ => bits.into(),
+            };
+            match leaf.fraction {
+                0 => number.to_string(),
+                fraction => (number as f64 / (1_u64 << fraction) as f64).to_string(),
+            }
+        }
     }
 }
 

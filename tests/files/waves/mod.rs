@@ -13,6 +13,7 @@ mod reader;
 mod replay;
 mod reset;
 mod series;
+mod surfer;
 mod text;
 mod watched;
 mod windows;

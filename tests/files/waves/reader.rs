@@ -8,6 +8,8 @@ pub struct Variable {
     pub kind: VarType,
     pub width: Option<u32>,
     pub range: Option<(i64, i64)>,
+    /// Codes and names of states.
+    pub states: Vec<(String, String)>,
     /// Times and values of the changes; bits as text.
     pub changes: Vec<(u64, String)>,
 }
@@ -53,6 +55,10 @@ pub fn read(bytes: &[u8]) -> Dump {
             kind: var.var_type(),
             width: var.length(hierarchy),
             range: var.index().map(|index| (index.msb(), index.lsb())),
+            states: var.enum_type(hierarchy).map_or(Vec::new(), |(_, table)| {
+                let owned = |&(code, name): &(&str, &str)| (code.to_owned(), name.to_owned());
+                table.iter().map(owned).collect()
+            }),
             changes: changes
                 .iter_changes()
                 .map(|(when, value)| (times[when as usize], text(value)))

@@ -1,5 +1,6 @@
 use super::zoo::{Part, Zoo, inputs, words};
 use super::{SEED, clock, reader, run_zoo};
+use motion_rtl::prelude::*;
 use motion_rtl::sim::RunError;
 use motion_rtl::trace::{Options, gtkw, replay};
 use std::fs;
@@ -45,20 +46,131 @@ fn a_save_file_names_only_signals_of_its_dump() {
     let dump = reader::read(&bytes);
     let save = gtkw::save_file(&Zoo, clock(), &Options::default(), "zoo.vcd", 0..50).unwrap();
     let listed = listed(&save);
-    assert_eq!(listed[0], "zoo.clk");
     for name in &listed {
         assert!(dump.variables.contains_key(*name), "{name}");
     }
-    let left_out: Vec<_> = dump
-        .variables
-        .keys()
-        .filter(|name| !listed.contains(&name.as_str()))
+    let names = dump.variables.keys().map(String::as_str);
+    let left_out = names.filter(|name| !listed.contains(name));
+    let (words, states): (Vec<_>, Vec<_>) =
+        left_out.partition(|name| name.starts_with("zoo.great.word"));
+    assert_eq!(words.len(), 128);
+    // Their names are listed.
+    assert_eq!(states, ["zoo.left.phase", "zoo.right.phase"]);
+}
+
+/// A row with its display: path, flags, colour, fraction bits.
+type Row<'a> = (&'a str, u32, u32, u32);
+
+/// The rows of a save file that are signals, as GTKWave reads them.
+fn rows<'a>(save: &'a str, circuit: &str) -> Vec<Row<'a>> {
+    let (mut flags, mut color, mut fraction) = (0, 0, 0);
+    let mut rows = Vec::new();
+    for line in save.lines() {
+        if let Some(hex) = line.strip_prefix('@') {
+            flags = u32::from_str_radix(hex, 16).unwrap();
+        } else if let Some(number) = line.strip_prefix("[color] ") {
+            color = number.parse().unwrap();
+        } else if let Some(number) = line.strip_prefix("[fpshift_count] ") {
+            fraction = number.parse().unwrap();
+        } else if line.starts_with(circuit) || line.starts_with("+{") {
+            let path = line.split(['[', '}']).next().unwrap();
+            // A colour is for one row; fraction bits stay, but count with their flag alone.
+            let shown = if flags & 1 << 30 == 0 { 0 } else { fraction };
+            rows.push((path, flags, std::mem::take(&mut color), shown));
+        }
+    }
+    rows
+}
+
+signals! { for Lamp as _c;
+    /// Ports in.
+    pub struct LampIn { pub go: Bit, pub late_by: U(3, 3) }
+    /// Registers.
+    pub struct LampReg { pub lit: Bit, kept: Bit, pub part_late: Bit }
+    /// Nets.
+    pub struct LampNet { pub shown: Bit, inner: Bit, fault: Bit }
+}
+
+/// A circuit with a signal of each colour.
+#[derive(Debug, Clone)]
+struct Lamp;
+
+impl Circuit for Lamp {
+    const NAME: &'static str = "lamp";
+    const ABOUT: &'static str = "is lit";
+    records!(LampIn, LampReg, LampNet);
+
+    fn tick(&self, i: LampIn, q: LampReg, _: Nothing) -> (LampNet, LampReg<Edge>) {
+        let net = LampNet {
+            shown: q.kept,
+            inner: i.go,
+            fault: i.late_by.bit(0),
+        };
+        let next = LampReg {
+            lit: i.go,
+            kept: q.lit,
+            part_late: i.go,
+        };
+        (net, next)
+    }
+}
+
+#[test]
+fn a_row_has_the_colour_of_its_role_and_clk_follows_the_inputs() {
+    let save = gtkw::save_file(&Lamp, clock(), &Options::default(), "lamp.vcd", 0..50).unwrap();
+    let seen = rows(&save, "lamp.");
+    let colors: Vec<_> = seen
+        .iter()
+        .map(|&(path, _, color, _)| (path, color))
         .collect();
-    assert_eq!(left_out.len(), 128);
+    let [red, orange, yellow, green, violet] = [1, 2, 3, 4, 7];
+    let expected = [
+        ("lamp.go", yellow),
+        // An error is a bit.
+        ("lamp.late_by", yellow),
+        ("lamp.clk", 0),
+        ("lamp.lit", green),
+        ("lamp.part_late", red),
+        ("lamp.shown", green),
+        ("lamp.kept", orange),
+        ("lamp.inner", violet),
+        ("lamp.fault", red),
+    ];
+    assert_eq!(colors, expected);
+    let [_, late_by, ..] = seen[..] else { panic!() };
+    assert_eq!(late_by, ("lamp.late_by", 0x4000_0024, yellow, 3));
+    assert!(!save.contains("@200\n-\n-ports in"), "no empty first row");
+}
+
+#[test]
+fn words_have_their_fraction_bits_and_states_their_names() {
+    let save = gtkw::save_file(&Zoo, clock(), &Options::default(), "zoo.vcd", 0..50).unwrap();
+    let rows = rows(&save, "zoo.");
+    let fractions: Vec<_> = rows.iter().filter(|row| row.3 > 0).collect();
+    assert_eq!(
+        fractions,
+        [
+            &("zoo.amount", 0x4000_0420, 3, 5),
+            &("zoo.count", 0x4000_8024, 4, 2)
+        ]
+    );
+    let state = rows.iter().find(|row| row.0 == "zoo.left.phase_name");
+    assert_eq!(state, Some(&("zoo.left.phase_name", 0x820, 4, 0)));
+}
+
+#[test]
+fn the_overview_is_on_top_and_ends_with_clk() {
+    let overview = ["count", "left.phase", "missing"];
+    let options = Options::default();
+    let save = gtkw::save_file_with(&Zoo, clock(), &options, "zoo.vcd", 0..50, &overview).unwrap();
+    let expected = ["zoo.count", "+{left/phase_name", "zoo.clk", "zoo.reset"];
+    let rows: Vec<_> = rows(&save, "zoo.").iter().map(|row| row.0).collect();
+    assert_eq!(rows[..4], expected);
+    let clks = rows.iter().filter(|path| **path == "zoo.clk").count();
+    assert_eq!(clks, 1);
     assert!(
-        left_out
-            .iter()
-            .all(|name| name.starts_with("zoo.great.word"))
+        save.contains("[sst_vpaned_height] 300\n@200\n-overview\n"),
+        "{save}"
     );
 }
 

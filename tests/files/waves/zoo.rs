@@ -52,13 +52,13 @@ signals! { for Zoo as _c;
     pub struct In {
         pub reset: Bit,
         pub wide: U(64) as Hex,
-        pub amount: I(12),
+        pub amount: I(12, 5),
         pub address: U(4) as Hex,
         pub write: Bit,
     }
     /// Registers of every kind.
     pub struct Reg {
-        pub count: U(10) as Analog = 1020,
+        pub count: U(10, 2) as Analog = 1020,
         held: U(64) as Hex = 0xdead_beef_u64,
         /// All ones at first: what a dump may take for nothing yet.
         total: I(64) = -1,
