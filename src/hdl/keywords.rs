@@ -1,5 +1,8 @@
 //! Names that Verilog reserves.
 
+use rustc_hash::FxHashSet;
+use std::sync::LazyLock;
+
 /// Words that cannot be names in Verilog-2001 or SystemVerilog, or that the export uses itself.
 const KEYWORDS: &str = "\
     accept_on alias always always_comb always_ff always_latch and assert assign assume automatic \
@@ -28,5 +31,7 @@ const KEYWORDS: &str = "\
 
 /// True if no signal of a module can have this name.
 pub(super) fn is_reserved(name: &str) -> bool {
-    KEYWORDS.split_ascii_whitespace().any(|word| word == name)
+    static WORDS: LazyLock<FxHashSet<&str>> =
+        LazyLock::new(|| KEYWORDS.split_ascii_whitespace().collect());
+    WORDS.contains(name)
 }
