@@ -1,9 +1,10 @@
 //! Time and memory of runs by their size: axes of the pulse interpolator, ticks, and machines on
 //! threads.
 //!
-//! Each run is a process of its own, so that its peak memory is that of the run alone; Linux tells
-//! it. The pulse interpolator plays a pattern on every axis, tick by tick. The machines of all five
-//! circuits replay the inputs of the shipped job. `--quick` makes runs of few ticks.
+//! Each run is a process of its own, whose peak memory Linux tells. The pulse interpolator plays a
+//! pattern on every axis, tick by tick. The machines of all five circuits replay the inputs of the
+//! shipped job; their memory includes the recording of these inputs. `--quick` makes runs of few
+//! ticks.
 
 use motion_rtl::circuits::pulse_interpolator::{Group, Pattern, Variant, Widths};
 use motion_rtl::scenario::shipped::{self, Clock};

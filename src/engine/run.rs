@@ -63,7 +63,7 @@ struct Pause {
 impl Pause {
     /// Longest pause in ticks, if recent attempts have paid off and if they have not.
     const LONGEST: [u64; 2] = [64, 512];
-    /// Least length of a pause after attempts that have not paid off, in costs of the last one.
+    /// If attempts have not paid off, the longest pause is at least the time of this many of them.
     const RARE: u64 = 128;
     const CREDIT: i64 = 1 << 20;
 
@@ -482,6 +482,17 @@ impl Engine {
     /// so far are inlined. Returns true if there is machine code.
     pub fn compile(&mut self) -> bool {
         self.tier.compile_now(&self.program.plan)
+    }
+
+    /// True if the circuit runs in machine code.
+    #[cfg(test)]
+    pub(super) fn is_compiled(&self) -> bool {
+        self.tier.is_compiled()
+    }
+
+    /// True if the circuit is never compiled.
+    pub(crate) fn is_interpreted(&self) -> bool {
+        self.tier.is_interpreted()
     }
 
     /// Continues on the interpreter, which counts blocks, and never compiles.

@@ -60,9 +60,12 @@ impl Tier {
         }
     }
 
-    /// Takes over the code of a clone, unless this tier never compiles.
+    /// Takes over the code of a clone in place of the interpreter, unless this tier never compiles.
+    ///
+    /// Code is not exchanged for other code, which may leave out the bits of other blocks.
     pub fn adopt(&mut self) {
         if self.due != u64::MAX
+            && !self.is_compiled()
             && let Some((backend, hot, pace)) = self.shared.get()
         {
             (self.backend, self.hot, self.pace) = (backend.clone(), hot.clone(), *pace);
@@ -75,10 +78,20 @@ impl Tier {
         self.due = u64::MAX;
     }
 
+    /// True if there is machine code.
+    pub fn is_compiled(&self) -> bool {
+        !matches!(self.backend, Backend::Interpreter)
+    }
+
+    /// True if it stays on the interpreter.
+    pub fn is_interpreted(&self) -> bool {
+        self.due == u64::MAX && !self.is_compiled()
+    }
+
     /// Compiles at once with all blocks inlined; returns true if there is code.
     pub fn straight(&mut self, plan: &Plan) -> bool {
         self.compile(plan, vec![true; plan.blocks.len()]);
-        !matches!(self.backend, Backend::Interpreter)
+        self.is_compiled()
     }
 
     /// Returns the cost of some steps, in compiled ones.
@@ -166,7 +179,7 @@ impl Tier {
             return;
         }
         self.adopt();
-        if !matches!(self.backend, Backend::Interpreter) {
+        if self.is_compiled() {
             return;
         }
         let steps = plan.blocks.iter().map(Block::cost);
@@ -180,11 +193,12 @@ impl Tier {
 
     /// Compiles with the blocks inlined that ran in most ticks; returns true if there is code.
     pub fn compile_now(&mut self, plan: &Plan) -> bool {
-        if matches!(self.backend, Backend::Interpreter) {
+        self.adopt();
+        if !self.is_compiled() {
             let often = |count: &u64| 2 * count > self.ticks;
             self.compile(plan, self.counts.iter().map(often).collect());
         }
-        !matches!(self.backend, Backend::Interpreter)
+        self.is_compiled()
     }
 
     #[cfg(feature = "jit")]

@@ -1,6 +1,6 @@
-//! Machine code of an edge block whose registers are made by choices: a branch for each condition
-//! that several registers share, so that a held register costs nothing, and the words of a side are
-//! computed on that side alone.
+//! Machine code of an edge block whose registers take their words from multiplexers: those with the
+//! same select signal share a branch, so that a held register costs nothing, and the words of a side
+//! are computed on that side alone.
 
 use super::block::{clean, value};
 use super::emit::{Changes, Emitter, Word};
@@ -15,6 +15,8 @@ type Set = u128;
 const MOST: usize = Set::BITS as usize;
 /// Greatest nesting depth of choices.
 const DEEP: usize = 12;
+/// Greatest number of branches per register; further choices are selections of two words.
+const MANY: usize = 8;
 
 /// Steps that are emitted where their words are needed.
 pub(super) struct Choices<'c, 'f> {
@@ -32,12 +34,14 @@ pub(super) struct Choices<'c, 'f> {
     made: Set,
     /// Choices made on the way here.
     known: Vec<(Slot, bool)>,
+    /// Number of branches that may still be emitted.
+    branches: usize,
 }
 
 /// Register, by its place in the block, and the slot of its new word.
 type Root = (usize, Slot);
 
-/// Roots that make the same choice first.
+/// Registers whose outermost multiplexers have the same select signal.
 struct Group {
     on: Slot,
     high: Vec<Root>,
@@ -64,6 +68,7 @@ impl<'c, 'f> Choices<'c, 'f> {
             places: places.collect(),
             made: 0,
             known: Vec::new(),
+            branches: MANY * block.registers.len(),
         };
         for (number, step) in block.steps.iter().enumerate() {
             let third = (step.code == Code::Mux).then_some(step.c);
@@ -115,7 +120,7 @@ impl<'c, 'f> Choices<'c, 'f> {
         }
     }
 
-    /// Emits what happens on some paths only; words that become known there are forgotten.
+    /// Emits one side of a branch; words that become known there are forgotten behind it.
     pub fn scope(&mut self, emit: impl FnOnce(&mut Self)) {
         let made = self.made;
         let mark = self.emitter.open();
@@ -140,11 +145,14 @@ impl<'c, 'f> Choices<'c, 'f> {
         self.grow(registers.map(|(place, &(_, from))| (place, from)).collect());
     }
 
-    /// Returns a choice: its condition, and the slots if it is high and low.
+    /// Returns a choice that is not made yet: its condition, and the slots if it is high and low.
     fn choice(&self, (place, from): Root) -> Option<(Slot, Slot, Slot)> {
         let register = self.register(place);
-        let step = &self.block.steps[*self.makers.get(&from)?];
-        if step.code != Code::Mux || step.width != register.width || register.shadow.is_some() {
+        let number = *self.makers.get(&from)?;
+        let step = &self.block.steps[number];
+        let is_made = self.made >> number & 1 != 0;
+        let is_choice = step.code == Code::Mux && step.width == register.width;
+        if !is_choice || is_made || register.shadow.is_some() {
             return None;
         }
         let (mut on, mut high, mut low) = (step.a, step.b, step.c);
@@ -162,6 +170,7 @@ impl<'c, 'f> Choices<'c, 'f> {
     /// Emits the new words of some registers.
     fn grow(&mut self, roots: Vec<Root>) {
         let (words, groups) = self.sort(roots);
+        self.branches -= groups.len();
         // Words of this level are made before a choice changes what they read, and are stored after
         // all choices have read what they change.
         let words: Vec<(usize, Word)> = words
@@ -195,8 +204,10 @@ impl<'c, 'f> Choices<'c, 'f> {
                     None => break Some((on, high, low)),
                 }
             };
-            let Some((on, high, low)) = choice.filter(|_| self.known.len() < DEEP) else {
-                if self.places.get(&from) != Some(&place) {
+            let full = self.known.len() >= DEEP || groups.len() >= self.branches;
+            let Some((on, high, low)) = choice.filter(|_| !full) else {
+                let is_held = self.places.get(&from) == Some(&place);
+                if !is_held || self.register(place).shadow.is_some() {
                     leaves.push((place, from));
                 }
                 continue;

@@ -225,14 +225,20 @@ impl Flow<'_> {
         let end = self.unless_due(due, mask);
         for group in places.chunks(GROUP) {
             let bits = group.iter().map(|&place| self.bit(place));
-            let past = self.unless_due(due, bits.fold(0, |bits, bit| bits | bit));
+            let bits = bits.fold(0, |bits, bit| bits | bit);
+            let past = (bits != mask).then(|| self.unless_due(due, bits));
             for &place in group {
-                let done = self.unless_due(due, self.bit(place));
+                let bit = self.bit(place);
+                let done = (bit != bits).then(|| self.unless_due(due, bit));
                 self.emitter.forget();
                 emit(self, place);
-                self.emitter.continue_in(done);
+                if let Some(done) = done {
+                    self.emitter.continue_in(done);
+                }
             }
-            self.emitter.continue_in(past);
+            if let Some(past) = past {
+                self.emitter.continue_in(past);
+            }
         }
         if let Due::Word(slot) = due {
             let all = self.emitter.load(slot);

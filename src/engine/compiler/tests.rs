@@ -165,15 +165,17 @@ fn advanced(case: &Case) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Returns a circuit of one block: registers that choose among words, and a memory that some of them
-/// read. The seeds of a register are a tree of choices.
+/// Returns a circuit of registers that choose among words, a memory that some of them read, and a
+/// register of another block. The seeds of a register are a tree of choices.
 fn chooser(width: u8, seeds: &[Vec<u8>]) -> Flat {
     let mut flat = Flat {
         inputs: vec![1, 1, 1, width],
-        instances: vec![Instance {
-            path: Vec::new(),
-            circuit: "chooser".to_owned(),
-        }],
+        instances: [vec![], vec!["far".to_owned()]]
+            .map(|path| Instance {
+                path,
+                circuit: "chooser".to_owned(),
+            })
+            .to_vec(),
         ..Flat::default()
     };
     let mut add = |op, width| {
@@ -187,13 +189,17 @@ fn chooser(width: u8, seeds: &[Vec<u8>]) -> Flat {
     };
     let ports = [0, 1, 2].map(|port| add(Op::Input(port), 1));
     let inverted = ports.map(|port| add(Op::Not(port), 1));
-    let ons = [ports, inverted].concat();
+    let mut ons = [ports, inverted].concat();
+    ons.push(add(Op::Constant(1), 1));
     let one = add(Op::Constant(1), width);
     let mut words = vec![add(Op::Input(3), width)];
-    words.extend((0..seeds.len()).map(|register| add(Op::Register(register as u32), width)));
+    words.extend((0..=seeds.len()).map(|register| add(Op::Register(register as u32), width)));
+    let far = words[words.len() - 1];
     words.push(add(Op::Add(words[1], one), width));
     words.push(add(Op::Add(words[1], words[2]), width));
     words.push(add(Op::Read(0, words[2]), width));
+    ons.push(add(Op::Slice(words[1], 0), 1));
+    ons.push(add(Op::Below(words[2], words[1]), 1));
     let of = |list: &[u32], seed: u8| list[usize::from(seed) % list.len()];
     for seeds in seeds {
         // From the leaves to the root.
@@ -213,17 +219,28 @@ fn chooser(width: u8, seeds: &[Vec<u8>]) -> Flat {
             instance: 0,
         });
     }
+    flat.nodes.push(Node {
+        op: Op::Mux(ports[1], words[1], far),
+        width,
+        instance: 1,
+    });
+    flat.registers.push(Register {
+        width,
+        power_on: 1,
+        next: flat.nodes.len() as u32 - 1,
+        instance: 1,
+    });
     flat.memories.push(Memory {
         width,
         contents: vec![0; 4],
         port: Port::Ram {
             enable: ons[0],
             address: words[1],
-            data: words[3],
+            data: words[words.len() - 1],
         },
         instance: 0,
     });
-    let registers = (0..seeds.len()).map(|register| Place::Register(register as u32));
+    let registers = (0..=seeds.len()).map(|register| Place::Register(register as u32));
     flat.leaves = registers
         .chain((0..4).map(|word| Place::Word(0, word)))
         .collect();
@@ -233,7 +250,7 @@ fn chooser(width: u8, seeds: &[Vec<u8>]) -> Flat {
 fn choosers() -> impl Strategy<Value = Case> {
     let seeds = vec(vec(any::<u8>(), 15), 2..6);
     let hold = (vec((0..4usize, any::<u64>()), 0..4), 0..4u64);
-    (1..6u8, seeds, vec(hold, 8), any::<[bool; 2]>()).prop_map(|(width, seeds, holds, hot)| {
+    (1..6u8, seeds, vec(hold, 8), any::<[bool; 8]>()).prop_map(|(width, seeds, holds, hot)| {
         let flat = chooser(width, &seeds);
         let held = holds.into_iter().map(|(changes, ticks)| {
             let fit = |(port, word): (usize, u64)| (port, word & mask(flat.inputs[port]));
@@ -376,6 +393,64 @@ fn a_register_takes_as_long_to_compile_in_a_wide_circuit() {
         assert!(each <= 2 * few, "{count}: {each} ns, {few} of 250");
     }
     assert!(time(8000) * 8000 <= 2_000_000_000);
+}
+
+/// Two registers that exchange their words by every one of many select signals: 2^30 paths.
+#[test]
+fn code_grows_with_the_steps_and_not_with_the_paths() {
+    let size = |stages: u32, registers: u32| {
+        let mut flat = Flat {
+            inputs: vec![1; stages as usize],
+            instances: vec![Instance {
+                path: Vec::new(),
+                circuit: "exchanges".to_owned(),
+            }],
+            ..Flat::default()
+        };
+        let mut add = |op, width| {
+            let instance = 0;
+            flat.nodes.push(Node {
+                op,
+                width,
+                instance,
+            });
+            flat.nodes.len() as u32 - 1
+        };
+        let ons: Vec<u32> = (0..stages).map(|port| add(Op::Input(port), 1)).collect();
+        let words: Vec<u32> = (0..registers)
+            .map(|number| add(Op::Register(number), 8))
+            .collect();
+        let mut pair = [words[0], words[1]];
+        for &on in &ons {
+            let [one, other] = pair;
+            pair = [
+                add(Op::Mux(on, one, other), 8),
+                add(Op::Mux(on, other, one), 8),
+            ];
+        }
+        for number in 0..registers {
+            let next = match number {
+                0 | 1 => pair[number as usize],
+                // Each has the whole tree on one side of a choice of its own.
+                _ => {
+                    let on = ons[number as usize % ons.len()];
+                    let own = add(Op::Add(words[number as usize], words[0]), 8);
+                    add(Op::Mux(on, pair[0], own), 8)
+                }
+            };
+            flat.registers.push(Register {
+                width: 8,
+                power_on: number.into(),
+                next,
+                instance: 0,
+            });
+        }
+        flat.leaves = (0..registers).map(Place::Register).collect();
+        let plan = Plan::of(&flat, &vec![true; registers as usize]);
+        Code::compile(&plan, &[]).expect("it compiles").size
+    };
+    assert!(size(30, 2) < 20_000, "{}", size(30, 2));
+    assert!(size(20, 30) < 100_000, "{}", size(20, 30));
 }
 
 #[test]

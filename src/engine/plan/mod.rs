@@ -65,9 +65,9 @@ pub struct Step {
     pub to: Slot,
     /// First operand; for a read, the address.
     pub a: Slot,
-    /// Second operand; for a read, the memory.
+    /// Second operand; unused by a read.
     pub b: Slot,
-    /// Third operand.
+    /// Third operand; for a read, the memory.
     pub c: Slot,
 }
 

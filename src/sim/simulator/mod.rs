@@ -57,7 +57,7 @@ impl<C: Circuit> Clone for Simulator<C> {
             applied: Vec::new(),
             each: None,
             always: self.always.clone(),
-            other: None,
+            other: self.other.clone(),
         }
     }
 }

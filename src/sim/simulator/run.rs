@@ -333,7 +333,10 @@ impl<C: Circuit> Simulator<C> {
         };
         let program = || self.model.elaborated().program_with(watch, always);
         let other = self.other.take();
-        let other = other.unwrap_or_else(|| Box::new(Engine::new(program())));
+        let mut other = other.unwrap_or_else(|| Box::new(Engine::new(program())));
+        if self.engine().is_interpreted() {
+            other.interpret();
+        }
         self.other = Some(Box::new(self.model.exchange(*other)));
     }
 
