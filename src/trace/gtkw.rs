@@ -60,10 +60,10 @@ const FRAME: f64 = 200.0;
 ///
 /// Input ports and `clk` come first, then output ports, then a group for the rest of the circuit,
 /// and one for every scope in it. Each role has its colour; a state is shown by name, and a word
-/// with fraction bits as a decimal fraction. Large groups and those below the first level are closed. Curves are
-/// scaled to the ticks in the window, which are those of `focus`. Memories of more than 64 words
-/// and shift registers of more than 256 stages are not listed. The two files may be moved
-/// together.
+/// with fraction bits as a decimal fraction. Large groups and those below the first level are
+/// closed. Curves are scaled to the ticks in the window, which are those of `focus`. Memories of
+/// more than 64 words and shift registers of more than 256 stages are not listed. The two files may
+/// be moved together.
 ///
 /// # Errors
 /// Returns the errors of [`Vcd::new`](super::Vcd::new).

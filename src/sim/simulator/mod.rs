@@ -132,8 +132,8 @@ impl<C: Circuit> Simulator<C> {
     }
 
     /// Creates the circuit in the power-on state; watches only the signals that `choose` picks and
-    /// those of `needs`, such as an observer's; `true` stands for all. Other signals can still be read, at the cost of computing all
-    /// nets.
+    /// those of `needs`, such as an observer's; `true` stands for all. Other signals can still be
+    /// read, at the cost of computing all nets.
     ///
     /// Computes only nets that are watched or that registers need.
     ///
