@@ -13,58 +13,59 @@ use rayon::prelude::*;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-/// Size of a run.
+/// Run: its parts, and the ticks of each.
 #[derive(Debug, Clone, Copy)]
-struct Size {
-    axes: usize,
-    machines: usize,
-    ticks: u64,
+enum Run {
+    Axes(usize, u64),
+    Machines(usize, u64),
 }
 
-impl Size {
-    fn of([axes, machines, ticks]: [u64; 3]) -> Self {
-        Size {
-            axes: axes as usize,
-            machines: machines as usize,
-            ticks,
-        }
-    }
+use Run::{Axes, Machines};
 
-    /// Ticks of all axes, or of all machines.
+/// Runs; the first of a group is what the others are compared with.
+const GROUPS: [&[Run]; 3] = [
+    &[
+        Axes(1, 10_000_000),
+        Axes(2, 10_000_000),
+        Axes(4, 10_000_000),
+        Axes(8, 10_000_000),
+    ],
+    &[
+        Axes(2, 1_000_000),
+        Axes(2, 10_000_000),
+        Axes(2, 100_000_000),
+    ],
+    &[
+        Machines(1, 200_000),
+        Machines(10, 200_000),
+        Machines(100, 200_000),
+    ],
+];
+
+impl Run {
+    /// Returns the number of ticks of all parts.
     fn work(self) -> u64 {
-        self.ticks * (self.axes + self.machines) as u64
+        let (Axes(count, ticks) | Machines(count, ticks)) = self;
+        count as u64 * ticks
     }
 
     fn name(self) -> String {
-        let Size {
-            axes,
-            machines,
-            ticks,
-        } = self;
-        let plural = |count: usize, one: &str, many: &str| match count {
-            1 => format!("1 {one}"),
-            _ => format!("{count} {many}"),
+        let (count, ticks, one, many) = match self {
+            Axes(count, ticks) => (count, ticks, "axis", "axes"),
+            Machines(count, ticks) => (count, ticks, "machine", "machines"),
         };
-        let what = match axes {
-            0 => plural(machines, "machine", "machines"),
-            _ => plural(axes, "axis", "axes"),
-        };
-        format!("{what}, {ticks} ticks")
+        let name = if count == 1 { one } else { many };
+        format!("{count} {name}, {ticks} ticks")
+    }
+
+    /// Makes the run, in this process.
+    fn run(self) -> Duration {
+        match self {
+            Axes(count, ticks) => interpolator(count, ticks),
+            Machines(count, ticks) => machines(count, ticks),
+        }
     }
 }
-
-/// Axes, machines and ticks of the runs; the first run of a group is what the others are compared
-/// with.
-const GROUPS: [&[[u64; 3]]; 3] = [
-    &[
-        [1, 0, 10_000_000],
-        [2, 0, 10_000_000],
-        [4, 0, 10_000_000],
-        [8, 0, 10_000_000],
-    ],
-    &[[2, 0, 1_000_000], [2, 0, 10_000_000], [2, 0, 100_000_000]],
-    &[[0, 1, 200_000], [0, 10, 200_000], [0, 100, 200_000]],
-];
 
 /// Runs an interpolator whose axes all play pulses.
 fn interpolator(axes: usize, ticks: u64) -> Duration {
@@ -110,16 +111,14 @@ fn peak() -> Option<u64> {
     Some(kibibytes * 1024)
 }
 
-/// Makes a run in a process of its own; returns its seconds, and its peak memory in bytes.
-fn measure(size: Size) -> (f64, Option<u64>) {
+/// Makes a run in a process of its own, by its place in a group; returns its seconds, and its peak
+/// memory in bytes.
+fn measure(group: usize, place: usize, part: u64) -> (f64, Option<u64>) {
     let program = std::env::current_exe().expect("a path");
-    let numbers = [size.axes as u64, size.machines as u64, size.ticks];
-    let output = Command::new(program)
-        .arg("--run")
-        .args(numbers.map(|number| number.to_string()))
-        .output()
-        .expect("it starts");
-    assert!(output.status.success(), "{size:?}: {output:?}");
+    let numbers = [group.to_string(), place.to_string(), part.to_string()];
+    let output = Command::new(program).arg("--run").args(numbers).output();
+    let output = output.expect("it starts");
+    assert!(output.status.success(), "{output:?}");
     let text = String::from_utf8(output.stdout).expect("text");
     let mut words = text.split_whitespace();
     let seconds = words.next().and_then(|word| word.parse().ok());
@@ -127,48 +126,43 @@ fn measure(size: Size) -> (f64, Option<u64>) {
     (seconds.expect("a time"), peak)
 }
 
+/// Returns a run of a group, with ticks divided by `part`.
+fn run(group: usize, place: usize, part: u64) -> Run {
+    match GROUPS[group][place] {
+        Axes(count, ticks) => Axes(count, ticks / part),
+        Machines(count, ticks) => Machines(count, ticks / part),
+    }
+}
+
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    if let Some(("--run", numbers)) = arguments
-        .split_first()
-        .map(|(word, rest)| (&word[..], rest))
+    if let [word, group, place, part] = &arguments[..]
+        && word == "--run"
     {
-        let numbers: Vec<u64> = numbers
-            .iter()
-            .map(|word| word.parse().expect("a number"))
-            .collect();
-        let size = Size::of(numbers.try_into().expect("three numbers"));
-        let taken = match size.axes {
-            0 => machines(size.machines, size.ticks),
-            axes => interpolator(axes, size.ticks),
-        };
+        let [group, place] = [group, place].map(|number| number.parse().expect("a number"));
+        let run = run(group, place, part.parse().expect("a number"));
+        let seconds = run.run().as_secs_f64();
         let peak = peak().map_or(String::new(), |peak| peak.to_string());
-        println!("{} {peak}", taken.as_secs_f64());
+        println!("{seconds} {peak}");
         return;
     }
     let quick = arguments.iter().any(|argument| argument == "--quick");
+    let part = if quick { 1000 } else { 1 };
     println!(
         "{:<36} {:>9} {:>9} {:>14} {:>9}",
         "", "seconds", "ns a tick", "against first", "peak MiB"
     );
-    for group in GROUPS {
+    for (group, runs) in GROUPS.iter().enumerate() {
         let mut first = None;
-        for &numbers in group {
-            let mut size = Size::of(numbers);
-            if quick {
-                size.ticks /= 1000;
-            }
-            let (seconds, peak) = measure(size);
-            let each = seconds * 1e9 / size.work() as f64;
-            let first = *first.get_or_insert(each);
-            let peak = peak.map_or("-".to_owned(), |peak| {
-                format!("{:.1}", peak as f64 / f64::from(1 << 20))
-            });
-            println!(
-                "{:<36} {seconds:>9.3} {each:>9.2} {:>14.2} {peak:>9}",
-                size.name(),
-                each / first
-            );
+        for place in 0..runs.len() {
+            let run = run(group, place, part);
+            let (seconds, peak) = measure(group, place, part);
+            let each = seconds * 1e9 / run.work() as f64;
+            let ratio = each / *first.get_or_insert(each);
+            let peak = peak.map(|peak| format!("{:.1}", peak as f64 / f64::from(1 << 20)));
+            let peak = peak.as_deref().unwrap_or("-");
+            let name = run.name();
+            println!("{name:<36} {seconds:>9.3} {each:>9.2} {ratio:>14.2} {peak:>9}");
         }
     }
 }

@@ -1,5 +1,5 @@
-//! Waves of a run: VCD and FST dumps with GTKWave save files, mapping files for Surfer, recordings, text waves, executable
-//! timing charts, and stimulus files.
+//! Waves of a run: VCD and FST dumps with GTKWave save files, mapping files for Surfer, recordings,
+//! text waves, executable timing charts, and stimulus files.
 //!
 //! Tick n is sampled at time n·P with `clk` high. `clk` falls half a period later, and the
 //! registers of tick n + 1 appear at (n + 1)·P.

@@ -26,7 +26,7 @@ pub(super) fn settle(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
 /// Emits a block that makes the edge: registers are written after everything that reads them.
 pub(super) fn edge(emitter: &mut Emitter<'_>, plan: &Plan, place: usize) {
     let block = &plan.blocks[place];
-    if !long(block, emitter.part_size) && Choices::fit(block) {
+    if !long(block, emitter.part_size) {
         return by_choices(emitter, plan, place);
     }
     steps(emitter, plan, block);

@@ -2,17 +2,18 @@
 //! same select signal share a branch, so that a held register costs nothing, and the words of a side
 //! are computed on that side alone.
 
+use super::PART;
 use super::block::{clean, value};
 use super::emit::{Changes, Emitter, Word};
 use crate::engine::layout::Slot;
 use crate::engine::plan::{Block, Code, Plan, PlannedRegister};
 use rustc_hash::FxHashMap;
 
-/// Set of steps, or of registers, of a block.
+/// Set of steps, or of registers, of a block that is compiled in one part.
 type Set = u128;
 
-/// Greatest number of steps, and of registers, of a block.
-const MOST: usize = Set::BITS as usize;
+const _: () = assert!(PART <= Set::BITS as usize);
+
 /// Greatest nesting depth of choices.
 const DEEP: usize = 12;
 /// Greatest number of branches per register; further choices are selections of two words.
@@ -49,11 +50,6 @@ struct Group {
 }
 
 impl<'c, 'f> Choices<'c, 'f> {
-    /// True if a block is small enough.
-    pub fn fit(block: &Block) -> bool {
-        block.steps.len() <= MOST && block.registers.len() <= MOST
-    }
-
     pub fn new(emitter: &'c mut Emitter<'f>, plan: &'c Plan, block: &'c Block) -> Self {
         let registers = block.registers.iter();
         let slots = registers.map(|&(register, _)| plan.registers[register as usize].slot);
@@ -212,8 +208,8 @@ impl<'c, 'f> Choices<'c, 'f> {
                 }
                 continue;
             };
-            let known = groups.iter().position(|group| group.on == on);
-            let known = known.unwrap_or_else(|| {
+            let number = groups.iter().position(|group| group.on == on);
+            let number = number.unwrap_or_else(|| {
                 groups.push(Group {
                     on,
                     high: Vec::new(),
@@ -221,8 +217,8 @@ impl<'c, 'f> Choices<'c, 'f> {
                 });
                 groups.len() - 1
             });
-            groups[known].high.push((place, high));
-            groups[known].low.push((place, low));
+            groups[number].high.push((place, high));
+            groups[number].low.push((place, low));
         }
         (leaves, groups)
     }

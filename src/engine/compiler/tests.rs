@@ -165,6 +165,16 @@ fn advanced(case: &Case) -> Result<(), TestCaseError> {
     Ok(())
 }
 
+/// Adds a node to the outermost circuit; returns its index.
+fn add(nodes: &mut Vec<Node>, op: Op, width: u8) -> u32 {
+    nodes.push(Node {
+        op,
+        width,
+        instance: 0,
+    });
+    nodes.len() as u32 - 1
+}
+
 /// Returns a circuit of registers that choose among words, a memory that some of them read, and a
 /// register of another block. The seeds of a register are a tree of choices.
 fn chooser(width: u8, seeds: &[Vec<u8>]) -> Flat {
@@ -178,15 +188,7 @@ fn chooser(width: u8, seeds: &[Vec<u8>]) -> Flat {
             .to_vec(),
         ..Flat::default()
     };
-    let mut add = |op, width| {
-        let instance = 0;
-        flat.nodes.push(Node {
-            op,
-            width,
-            instance,
-        });
-        flat.nodes.len() as u32 - 1
-    };
+    let mut add = |op, width| add(&mut flat.nodes, op, width);
     let ports = [0, 1, 2].map(|port| add(Op::Input(port), 1));
     let inverted = ports.map(|port| add(Op::Not(port), 1));
     let mut ons = [ports, inverted].concat();
@@ -407,15 +409,7 @@ fn code_grows_with_the_steps_and_not_with_the_paths() {
             }],
             ..Flat::default()
         };
-        let mut add = |op, width| {
-            let instance = 0;
-            flat.nodes.push(Node {
-                op,
-                width,
-                instance,
-            });
-            flat.nodes.len() as u32 - 1
-        };
+        let mut add = |op, width| add(&mut flat.nodes, op, width);
         let ons: Vec<u32> = (0..stages).map(|port| add(Op::Input(port), 1)).collect();
         let words: Vec<u32> = (0..registers)
             .map(|number| add(Op::Register(number), 8))

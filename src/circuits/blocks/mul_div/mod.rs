@@ -137,7 +137,7 @@ signals! { for MulDiv as c;
         pub quotient: U(c.word) = 0,
         /// Remainder of the division.
         pub remainder: U(c.word) = 0,
-        /// High for one tick: `quotient` and `remainder` are valid from this tick until the next
+        /// High if a result is new: `quotient` and `remainder` are valid from this tick until the next
         /// start.
         pub done: Bit = 0,
     }
