@@ -151,8 +151,9 @@ impl<'a> Traces<'a> {
                 true => focus.action.saturating_sub(focus.before).max(start),
                 false => start,
             };
-            let end = first.saturating_add(focus.shown);
-            let window = first..end.min(*ticks.max(&first.saturating_add(1)));
+            // No farther than the dump.
+            let last = end.min(*ticks).max(first.saturating_add(1));
+            let window = first..first.saturating_add(focus.shown).min(last);
             // First, as both take memory for every word of the circuit's memories.
             let file = waves.finish().map_err(RunError::Waves)?;
             self.files.push(file);

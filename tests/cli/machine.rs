@@ -198,6 +198,20 @@ fn the_files_of_a_run() {
         assert!(svg.contains(&format!("\n{words}\n")), "{words}");
     }
     let save = bench.read("o/s.gtkw");
+    // GTKWave shows the waves over the whole width, which has 200 pixels in a unit of its zoom.
+    let field = |name| {
+        let mut fields = save.lines().filter_map(|line| line.strip_prefix(name));
+        let field = fields.next().and_then(|rest| rest.split(' ').next());
+        field
+            .and_then(|number| number.parse::<f64>().ok())
+            .expect(name)
+    };
+    let pane = 1600. - field("[sst_width] ") - field("[signals_width] ") - 100.;
+    let shown_ns = 2f64.powf(-field("*")) * pane / 200.;
+    assert_eq!(
+        (field("[timestart] "), (shown_ns / 6250.).round()),
+        (0., 20_000.)
+    );
     let overview = save
         .split("-overview\n")
         .nth(1)
