@@ -100,6 +100,7 @@ impl Coverage {
         let plan = engine.program().plan();
         engine.changed(|place| {
             let watched = &plan.layout.watched[place];
+            let leaves = plan.layout.shown(watched);
             let mut see = |leaf: u32| {
                 if let Some(shown) = view.shown(leaf) {
                     let signal = self.of_leaf[shown as usize];
@@ -109,13 +110,13 @@ impl Coverage {
             match watched.memory.map(|memory| memory as usize) {
                 // A shifted stage was recorded where it came in.
                 Some(memory) => match plan.memories[memory].head {
-                    Some(_) => watched.leaves.first().copied().into_iter().for_each(see),
+                    Some(_) => leaves.first().copied().into_iter().for_each(see),
                     None => {
                         let (_, word) = engine.written(memory);
-                        see(watched.leaves[word as usize]);
+                        see(leaves[word as usize]);
                     }
                 },
-                None => watched.leaves.iter().copied().for_each(see),
+                None => leaves.iter().copied().for_each(see),
             }
         });
     }

@@ -151,8 +151,9 @@ impl<'a> Traces<'a> {
                 true => focus.action.saturating_sub(focus.before).max(start),
                 false => start,
             };
-            // No farther than the dump.
-            let last = end.min(*ticks).max(first.saturating_add(1));
+            // Within the dump, and from earlier on if the dump ends too soon.
+            let last = end.min(*ticks).max(start.saturating_add(1));
+            let first = first.min(last.saturating_sub(focus.shown)).max(start);
             let window = first..first.saturating_add(focus.shown).min(last);
             // First, as both take memory for every word of the circuit's memories.
             let file = waves.finish().map_err(RunError::Waves)?;

@@ -1,5 +1,7 @@
 //! Memory layout of a plan: one slab of words.
 
+use std::ops::Range;
+
 /// Index of a word in the slab.
 pub type Slot = u32;
 
@@ -30,6 +32,8 @@ pub struct Layout {
     pub properties: Vec<Spot>,
     /// Watched words, in the order of the bits of `changed`.
     pub watched: Vec<Watched>,
+    /// Leaves of the watched words, those of a word in a row.
+    pub shown: Vec<u32>,
     /// By slot: words of `dirty`, and the bits to set in them when the slot changes.
     pub readers: Vec<Vec<(Slot, u64)>>,
     /// By slot: bit of `changed` to set when the slot changes.
@@ -41,12 +45,12 @@ pub struct Layout {
 }
 
 /// Watched word, or write mark of a memory.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Watched {
     /// Slot of the word.
     pub slot: Slot,
-    /// Leaves that show the word; for a memory, all its words.
-    pub leaves: Vec<u32>,
+    /// Range of `shown`: the leaves that show the word; for a memory, all its words.
+    pub leaves: Range<u32>,
     /// Memory to which the mark belongs.
     pub memory: Option<u32>,
 }
@@ -77,6 +81,12 @@ impl Layout {
     /// Returns the number of bits of `changed`, with the unused ones of its last word.
     pub fn marks(&self) -> usize {
         self.changed_words as usize * 64
+    }
+
+    /// Returns the leaves that show a watched word.
+    #[inline]
+    pub fn shown(&self, watched: &Watched) -> &[u32] {
+        &self.shown[watched.leaves.start as usize..watched.leaves.end as usize]
     }
 
     pub(super) fn new(blocks: usize) -> Self {

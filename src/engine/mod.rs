@@ -33,7 +33,7 @@ pub use flat::EngineError;
 pub(crate) use flat::{Flat, Id, Op, Place, Port};
 pub(crate) use flatten::Statement;
 pub use input::{InputChange, InputError};
-pub(crate) use layout::Spot;
+pub(crate) use layout::{Spot, Watched};
 pub use played::Inputs;
 pub use program::Watch;
 pub(crate) use program::{Program, ports_out};

@@ -298,6 +298,7 @@ impl Engine {
 
     /// Returns the bits of a leaf of the walk; `None` if there is no such leaf. A net needs a
     /// settled tick.
+    #[inline]
     pub fn leaf(&self, leaf: usize) -> Option<u64> {
         (leaf < self.leaves()).then(|| self.word(leaf))
     }

@@ -13,12 +13,11 @@ const SECTIONS: usize = 3;
 
 /// Receiver of the sections of a run, in its thread.
 pub(crate) trait Sink: Send + 'static {
-    /// Number of changes at which a section is full; a tick with more makes it longer.
-    const CHANGES: usize;
-    /// Number of ticks at which a section is full.
-    const TICKS: usize;
     /// Result after everything is written.
     type Out;
+    /// Returns the number of changes, and of ticks, at which a section is full. A tick with more
+    /// changes makes it longer.
+    fn full(&self) -> (usize, usize);
     /// Writes a section.
     fn write(&mut self, section: &Section) -> io::Result<()>;
     /// Writes the rest and returns the result.
@@ -31,6 +30,8 @@ pub(crate) trait Sink: Send + 'static {
 #[derive(Debug)]
 pub(crate) struct Behind<S> {
     section: Section,
+    /// Numbers of changes and of ticks at which it is full.
+    at: (usize, usize),
     /// Channel to the thread; `None` once the thread is to end.
     full: Option<SyncSender<Section>>,
     spare: Receiver<Section>,
@@ -47,6 +48,7 @@ impl<S: Sink> Behind<S> {
             // The channel has room for all sections, and its other end exists.
             let _ = back.send(Section::default());
         }
+        let at = sink.full();
         let thread = Builder::new().name("waves".into());
         let thread = thread.spawn(move || {
             for mut section in work {
@@ -63,6 +65,7 @@ impl<S: Sink> Behind<S> {
         })?;
         Ok(Behind {
             section: Section::default(),
+            at,
             full: Some(full),
             spare,
             thread: Some(thread),
@@ -107,7 +110,8 @@ impl<S: Sink> Format for Behind<S> {
             fall,
             changes: section.changes.len(),
         });
-        if section.changes.len() >= S::CHANGES || section.ticks.len() >= S::TICKS {
+        let (changes, ticks) = self.at;
+        if section.changes.len() >= changes || section.ticks.len() >= ticks {
             self.hand_over()?;
         }
         Ok(())

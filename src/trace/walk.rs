@@ -2,6 +2,7 @@
 
 use super::Clock;
 use super::layout::Layout;
+use crate::engine::Watched;
 use crate::sim::LeafView as View;
 use std::io;
 
@@ -28,8 +29,6 @@ pub(super) struct Walk {
     before: Vec<u64>,
     /// Write count of each memory in the tick before.
     marks: Vec<u64>,
-    /// Leaves that may have changed.
-    touched: Touched,
     /// Selected leaves, unless all are.
     selected: Option<Vec<bool>>,
     /// Changes of the tick.
@@ -44,7 +43,6 @@ impl Walk {
             last: None,
             before: vec![UNKNOWN; leaves],
             marks: Vec::new(),
-            touched: Touched::new(leaves),
             selected: layout
                 .selected
                 .contains(&false)
@@ -94,37 +92,54 @@ impl Walk {
     }
 
     fn look_at_changes(&mut self, view: View<'_>) {
-        let Walk { touched, marks, .. } = self;
+        let engine = view.engine;
+        let layout = &engine.program().plan().layout;
+        let slab = engine.slab();
+        engine.changed(|place| {
+            let watched = &layout.watched[place];
+            if watched.memory.is_some() {
+                return self.look_at_memory(watched, view);
+            }
+            let bits = slab[watched.slot as usize];
+            for &leaf in layout.shown(watched) {
+                self.look_at(leaf, bits, view);
+            }
+        });
+    }
+
+    /// Looks at the words of a memory that was written.
+    #[inline(never)]
+    fn look_at_memory(&mut self, watched: &Watched, view: View<'_>) {
         let engine = view.engine;
         let plan = engine.program().plan();
-        engine.changed(|place| {
-            let watched = &plan.layout.watched[place];
-            let mut leaves = &watched.leaves[..];
-            if let Some(memory) = watched.memory.map(|memory| memory as usize) {
-                let (mark, word) = engine.written(memory);
-                let writes = mark.wrapping_sub(std::mem::replace(&mut marks[memory], mark));
-                let shifts = plan.memories[memory].head.is_some();
-                if let Some(leaf) = leaves.get(word as usize)
-                    && writes == 1
-                    && !shifts
-                {
-                    leaves = std::slice::from_ref(leaf);
-                }
+        let Some(memory) = watched.memory.map(|memory| memory as usize) else {
+            return;
+        };
+        let (mark, word) = engine.written(memory);
+        let writes = mark.wrapping_sub(std::mem::replace(&mut self.marks[memory], mark));
+        let shifts = plan.memories[memory].head.is_some();
+        let mut leaves = plan.layout.shown(watched);
+        if let Some(leaf) = leaves.get(word as usize)
+            && writes == 1
+            && !shifts
+        {
+            leaves = std::slice::from_ref(leaf);
+        }
+        for &leaf in leaves {
+            self.look_at(leaf, engine.word(leaf as usize), view);
+        }
+    }
+
+    /// Compares the bits of a leaf of the engine with those of the tick before.
+    #[inline(always)]
+    fn look_at(&mut self, leaf: u32, bits: u64, view: View<'_>) {
+        if let Some(leaf) = view.shown(leaf) {
+            let before = &mut self.before[leaf as usize];
+            if *before != bits {
+                *before = bits;
+                self.changes.push(Change { leaf, bits });
             }
-            for &leaf in leaves {
-                if let Some(leaf) = view.shown(leaf) {
-                    touched.touch(leaf);
-                }
-            }
-        });
-        touched.take(|leaf| {
-            let now = view.leaf(leaf);
-            if now != self.before[leaf] {
-                self.before[leaf] = now;
-                let leaf = leaf as u32;
-                self.changes.push(Change { leaf, bits: now });
-            }
-        });
+        }
     }
 
     /// Returns the changes of the tick.
@@ -137,56 +152,6 @@ impl Walk {
         let end = |last: u64| self.clock.rise(last + 1).ok_or_else(too_late);
         self.last.map(end).transpose()
     }
-}
-
-/// Set of leaves. The words of memories are leaves too, so there can be many, of which few are in
-/// the set.
-#[derive(Debug)]
-struct Touched {
-    /// One bit per leaf.
-    leaves: Vec<u64>,
-    /// One bit per word of `leaves` that is not 0.
-    words: Vec<u64>,
-}
-
-impl Touched {
-    /// Creates an empty set for `leaves` leaves.
-    fn new(leaves: usize) -> Self {
-        let words = leaves.div_ceil(64);
-        Touched {
-            leaves: vec![0; words],
-            words: vec![0; words.div_ceil(64)],
-        }
-    }
-
-    #[inline]
-    fn touch(&mut self, leaf: u32) {
-        let word = leaf as usize / 64;
-        self.leaves[word] |= 1 << (leaf % 64);
-        self.words[word / 64] |= 1 << (word % 64);
-    }
-
-    /// Empties the set, in the order of the walk.
-    #[inline]
-    fn take(&mut self, mut see: impl FnMut(usize)) {
-        for (place, words) in self.words.iter_mut().enumerate() {
-            for word in ones(std::mem::take(words)) {
-                let word = place * 64 + word;
-                for leaf in ones(std::mem::take(&mut self.leaves[word])) {
-                    see(word * 64 + leaf);
-                }
-            }
-        }
-    }
-}
-
-/// Returns the positions of the set bits, from the lowest on.
-fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let place = bits.trailing_zeros();
-        bits &= bits.wrapping_sub(1);
-        (place < 64).then_some(place as usize)
-    })
 }
 
 fn too_late() -> io::Error {

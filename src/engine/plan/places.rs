@@ -81,7 +81,7 @@ impl Planning<'_> {
 
     /// Sets the spots of leaves and properties, and their change marks.
     fn spots(&mut self, memories: &[PlannedMemory]) {
-        let mut watched: BTreeMap<Slot, Watched> = BTreeMap::new();
+        let mut watched: BTreeMap<Slot, (Option<u32>, Vec<u32>)> = BTreeMap::new();
         let mut spots = Vec::new();
         for (index, place) in self.flat.leaves.iter().enumerate() {
             let wanted = wants(self.wanted, index);
@@ -101,9 +101,9 @@ impl Planning<'_> {
                 _ => (None, None),
             };
             if let Some(slot) = slot.filter(|_| wanted) {
-                let watched = watched.entry(slot).or_default();
-                watched.memory = memory;
-                watched.leaves.push(index as u32);
+                let (of, leaves) = watched.entry(slot).or_default();
+                *of = memory;
+                leaves.push(index as u32);
             }
             spots.push(spot);
         }
@@ -121,13 +121,19 @@ impl Planning<'_> {
         self.layout.changed_words = words;
         let first = self.layout.changed;
         self.layout.changes = vec![None; self.layout.words as usize];
-        for (index, (slot, watched)) in watched.into_iter().enumerate() {
+        for (index, (slot, (memory, leaves))) in watched.into_iter().enumerate() {
             let index = index as u32;
             self.layout.changes[slot as usize] = Some(Change {
                 word: first + index / 64,
                 mask: 1 << (index % 64),
             });
-            self.layout.watched.push(Watched { slot, ..watched });
+            let start = self.layout.shown.len() as u32;
+            self.layout.shown.extend(leaves);
+            self.layout.watched.push(Watched {
+                slot,
+                leaves: start..self.layout.shown.len() as u32,
+                memory,
+            });
         }
     }
 

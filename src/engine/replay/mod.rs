@@ -58,7 +58,8 @@ impl Shown {
         let mut bits: FxHashMap<usize, usize> = FxHashMap::default();
         for (bit, watched) in layout.watched.iter().enumerate() {
             if watched.memory.is_none() {
-                bits.extend(watched.leaves.iter().map(|&leaf| (leaf as usize, bit)));
+                let leaves = layout.shown(watched).iter();
+                bits.extend(leaves.map(|&leaf| (leaf as usize, bit)));
             }
         }
         let marks = layout.marks();

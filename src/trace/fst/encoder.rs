@@ -25,12 +25,47 @@ pub(crate) struct Encoder<W> {
     clock: Clock,
     counts: Counts,
     variables: Vec<Variable>,
-    /// Values at the end of the section before, by leaf.
-    values: Vec<u64>,
+    frame: Frame,
     sorted: Sorted,
     chain: Vec<u8>,
     bytes: Vec<u8>,
     table: CompressTable,
+}
+
+/// Values of all variables as text: one digit per bit.
+struct Frame {
+    digits: Vec<u8>,
+    /// Position of `clk`.
+    clk: usize,
+    /// Position and width of each leaf; width 0 if it is not selected.
+    places: Vec<(usize, usize)>,
+}
+
+impl Frame {
+    /// Creates a frame in which all bits are 0.
+    fn new(variables: &[Variable], leaves: usize) -> Self {
+        let (mut len, mut clk) = (0, 0);
+        let mut places = vec![(0, 0); leaves];
+        for variable in variables {
+            match *variable {
+                Variable::Clk => clk = len,
+                Variable::Bits { leaf, width } => places[leaf] = (len, width),
+                Variable::Names { .. } => {}
+            }
+            len += variable.width();
+        }
+        Frame {
+            digits: vec![b'0'; len],
+            clk,
+            places,
+        }
+    }
+
+    fn set(&mut self, leaf: usize, bits: u64) {
+        let (at, width) = self.places[leaf];
+        let digits = left(bits, width).to_be_bytes().map(eight_digits);
+        self.digits[at..at + width].copy_from_slice(&digits.as_flattened()[..width]);
+    }
 }
 
 impl<W> std::fmt::Debug for Encoder<W> {
@@ -53,8 +88,8 @@ impl<W: Write + Seek> Encoder<W> {
                 variables: variables.len() as u64,
                 ..Counts::default()
             },
+            frame: Frame::new(&variables, layout.leaves.len()),
             variables,
-            values: vec![0; layout.leaves.len()],
             sorted: Sorted::default(),
             chain: Vec::new(),
             bytes,
@@ -75,23 +110,18 @@ impl<W: Write + Seek> Encoder<W> {
     /// Writes the initial values of the section: the last ones of the section before or, in the
     /// first section, those of its first tick.
     fn frame(&mut self) {
+        let frame = &mut self.frame;
         let first = self.counts.sections == 0;
-        let frame = &mut self.chain;
-        frame.clear();
-        for variable in &self.variables {
-            match *variable {
-                Variable::Clk => frame.push(if first { b'1' } else { b'0' }),
-                Variable::Names { .. } => {}
-                Variable::Bits { leaf, width } => {
-                    let run = if first { self.sorted.run(leaf) } else { &[] };
-                    let bits = run.first().map_or(self.values[leaf], |value| value.bits);
-                    let digits = left(bits, width).to_be_bytes().map(eight_digits);
-                    frame.extend_from_slice(&digits.as_flattened()[..width]);
+        frame.digits[frame.clk] = if first { b'1' } else { b'0' };
+        if first {
+            for leaf in 0..frame.places.len() {
+                if let Some(value) = self.sorted.run(leaf).first() {
+                    frame.set(leaf, value.bits);
                 }
             }
         }
-        unsigned(&mut self.bytes, frame.len() as u64);
-        let packed = pack(frame);
+        unsigned(&mut self.bytes, frame.digits.len() as u64);
+        let packed = pack(&frame.digits);
         unsigned(&mut self.bytes, packed.len() as u64);
         unsigned(&mut self.bytes, self.variables.len() as u64);
         self.bytes.extend_from_slice(&packed);
@@ -156,10 +186,14 @@ impl<W: Write + Seek> Encoder<W> {
 }
 
 impl<W: Write + Seek + Send + 'static> Sink for Encoder<W> {
-    // The amount packed together determines the file size.
-    const CHANGES: usize = 128 * 1024;
-    const TICKS: usize = 32 * 1024;
     type Out = W;
+
+    fn full(&self) -> (usize, usize) {
+        // The amount packed together determines the file size. Every section begins with all
+        // values, words of memories included, and should have more changes than that.
+        let changes = (128 * 1024).max(8 * self.frame.places.len());
+        (changes, changes / 4)
+    }
 
     fn write(&mut self, section: &Section) -> io::Result<()> {
         let last_tick = section.ticks.last().map(|tick| tick.fall);
@@ -172,7 +206,7 @@ impl<W: Write + Seek + Send + 'static> Sink for Encoder<W> {
             (self.counts.start, self.counts.end) = (first, first);
         }
         let start = self.counts.end;
-        self.sorted.sort(section, self.values.len());
+        self.sorted.sort(section, self.frame.places.len());
 
         self.bytes.clear();
         self.bytes.push(VALUES);
@@ -187,9 +221,9 @@ impl<W: Write + Seek + Send + 'static> Sink for Encoder<W> {
         self.fill(unpacked, chains);
         self.out.write_all(&self.bytes)?;
 
-        for (leaf, value) in self.values.iter_mut().enumerate() {
+        for leaf in 0..self.frame.places.len() {
             if let Some(last) = self.sorted.run(leaf).last() {
-                *value = last.bits;
+                self.frame.set(leaf, last.bits);
             }
         }
         self.counts.end = end;

@@ -219,7 +219,7 @@ fn escaped(char: char) -> impl Iterator<Item = char> {
 
 impl Variable {
     /// Returns the number of characters in a frame.
-    fn width(self) -> usize {
+    pub fn width(self) -> usize {
         match self {
             Variable::Clk => 1,
             Variable::Bits { width, .. } => width,

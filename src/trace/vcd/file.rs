@@ -104,10 +104,12 @@ impl<W: Write> Format for VcdFile<W> {
 
 /// Writes in a separate thread.
 impl<W: Write + Send + 'static> Sink for VcdFile<W> {
-    // Small enough to stay in the caches between the threads.
-    const CHANGES: usize = 16 * 1024;
-    const TICKS: usize = 8 * 1024;
     type Out = W;
+
+    fn full(&self) -> (usize, usize) {
+        // Small enough to stay in the caches between the threads.
+        (16 * 1024, 8 * 1024)
+    }
 
     fn write(&mut self, section: &Section) -> io::Result<()> {
         for (tick, changes) in section.ticks() {
