@@ -201,7 +201,7 @@ fn played<'a>(
 }
 
 /// Returns the input ports with their names in waves and in Verilog.
-fn ports(circuit: &dyn AnyModel, printed: Printed<'_>) -> Vec<InputPort> {
+pub fn ports(circuit: &dyn AnyModel, printed: Printed<'_>) -> Vec<InputPort> {
     let inputs = printed.top().into_iter().flat_map(|module| module.inputs());
     let declared = circuit.outline().leaves;
     let ports = inputs.zip(&declared).map(|(port, leaf)| InputPort {

@@ -199,10 +199,21 @@ impl fmt::Display for Chosen {
 }
 
 impl Chosen {
-    /// The full circuit with its changes, running, and the changed keys, one per line.
-    pub fn running(&self) -> Result<(Model, String), Failure> {
+    /// Returns the changed keys as on the command line.
+    pub fn changes(&self) -> String {
+        self.changes.to_string()
+    }
+
+    /// Returns the circuit in the catalogue, and its changed keys.
+    pub fn entry(&self) -> Result<(&'static Entry, Vec<Pair>), Failure> {
         let entry = entry(&self.circuit)?;
         let pairs = self.changes.pairs(entry)?;
+        Ok((entry, pairs))
+    }
+
+    /// The full circuit with its changes, running, and the changed keys, one per line.
+    pub fn running(&self) -> Result<(Model, String), Failure> {
+        let (entry, pairs) = self.entry()?;
         let made = entry.made(Base::Full, &pairs);
         made.map_err(|error| refused(entry, error))?;
         let model = Model::new(entry.name, &pairs).map_err(|error| Failure::Argument {
@@ -216,8 +227,7 @@ impl Chosen {
 
     /// The full circuit with its changes.
     pub fn model(&self) -> Result<Box<dyn AnyModel>, Failure> {
-        let entry = entry(&self.circuit)?;
-        let pairs = self.changes.pairs(entry)?;
+        let (entry, pairs) = self.entry()?;
         let made = entry.made(Base::Full, &pairs);
         made.map_err(|error| refused(entry, error))
     }

@@ -55,6 +55,11 @@ Examples:
   motion-rtl compare golden.vcd tb.vcd
   motion-rtl compare golden.vcd tb.fst --other-clock clk_i --map map.toml";
 
+pub const EQUAL: &str = "\
+Examples:
+  motion-rtl equal pulse_train my_train.v
+  motion-rtl equal unit_law --width 16 my_*.v --top channel --param W=16 --map names.toml";
+
 pub const PLAN: &str = "\
 Examples:
   motion-rtl plan unit_law

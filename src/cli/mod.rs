@@ -10,6 +10,7 @@ mod columns;
 mod compare;
 mod connections;
 mod dpi;
+mod equal;
 mod errors;
 mod export;
 mod faults;

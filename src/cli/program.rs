@@ -49,6 +49,9 @@ enum Command {
     /// Compares a waveform, such as a simulator's, with a golden one, tick by tick.
     #[command(after_help = help::COMPARE)]
     Compare(super::compare::Arguments),
+    /// Proves that a design in Verilog equals a circuit, or shows where it differs. Needs Yosys.
+    #[command(after_help = help::EQUAL)]
+    Equal(super::equal::Arguments),
     /// Shows how the engine runs a circuit: its blocks, what wakes them, how often each runs.
     #[command(after_help = help::PLAN)]
     Plan(super::plan::Arguments),
@@ -227,6 +230,7 @@ fn run(command: Option<Command>) -> Result<(), Failure> {
         Some(Command::Verilog(arguments)) => super::verilog::verilog(&arguments),
         Some(Command::Vhdl(arguments)) => super::vhdl::vhdl(&arguments),
         Some(Command::Compare(arguments)) => super::compare::compare(&arguments),
+        Some(Command::Equal(arguments)) => super::equal::equal(&arguments),
         Some(Command::Plan(arguments)) => super::plan::plan(&arguments),
         Some(Command::List(arguments)) => super::list::list(&arguments),
         Some(Command::Keys(arguments)) => super::keys::keys(&arguments),

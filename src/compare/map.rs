@@ -43,18 +43,23 @@ pub struct Map {
 
 /// Line of a map.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Entry<T> {
+pub struct Entry<T> {
+    /// Number of the line, from 1.
     pub line: usize,
     /// Name in the golden file.
     pub golden: String,
+    /// Partner in the other file; `()` for a name that is left out.
     pub other: T,
 }
 
 /// Partner of a golden signal.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Partner {
+pub struct Partner {
+    /// Path or its end, with bits in brackets if it is a part of a signal.
     pub name: String,
+    /// True if the signal is inverted.
     pub invert: bool,
+    /// Ticks by which the partner is late.
     pub delay: u64,
 }
 
@@ -146,7 +151,23 @@ impl Map {
         Ok(map)
     }
 
-    pub(super) fn fault(
+    /// Returns the lines of `[signals]`, in the order of the file.
+    pub fn signals(&self) -> &[Entry<Partner>] {
+        &self.signals
+    }
+
+    /// Returns the lines of `[scopes]`, in the order of the file.
+    pub fn scopes(&self) -> &[Entry<String>] {
+        &self.scopes
+    }
+
+    /// Returns the names in `ignore` and `leave`.
+    pub fn left_out(&self) -> impl Iterator<Item = &Entry<()>> {
+        self.ignore.iter().chain(&self.leave)
+    }
+
+    /// Returns a fault of a line; `field` is the golden name.
+    pub fn fault(
         &self,
         line: usize,
         field: &str,

@@ -76,7 +76,8 @@ mod wave;
 
 pub use bound::{BoundPorts, is_identifier};
 pub use inputs::{DumpInputs, Reset, inputs};
-pub use map::Map;
+pub use map::{Entry, Map, Partner};
+pub use names::brackets;
 pub use report::{Cell, Difference, Mismatch, Report, Row, Side, WidthDifference};
 pub use value::WIDEST;
 

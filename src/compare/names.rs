@@ -40,8 +40,9 @@ pub(super) fn element(path: &str) -> String {
     }
 }
 
-/// Splits a path from the bits or the element in brackets after it.
-pub(super) fn brackets(path: &str) -> Option<(&str, i64, i64)> {
+/// Splits a path from the bits or the element in brackets after it: `bus[27:4]` is
+/// `("bus", 27, 4)`, `bus[3]` is `("bus", 3, 3)`.
+pub fn brackets(path: &str) -> Option<(&str, i64, i64)> {
     let (base, inner) = path.strip_suffix(']')?.rsplit_once('[')?;
     let (first, last) = inner.split_once(':').unwrap_or((inner, inner));
     Some((

@@ -36,6 +36,22 @@ pub struct Narrower {
 }
 
 impl Entry {
+    /// Returns the greatest width of the full circuit, some keys changed, in bits.
+    pub fn greatest_width(&self, pairs: &[Pair]) -> u64 {
+        let widths = self.widths(Base::Full, pairs).into_iter();
+        widths.map(|(_, bits)| bits).max().unwrap_or(1).max(1)
+    }
+
+    /// Returns all widths of the full circuit, some keys changed, in proportion: the greatest has
+    /// `greatest` bits.
+    pub fn widths_at(&self, pairs: &[Pair], greatest: u64) -> Vec<(String, u64)> {
+        let most = self.greatest_width(pairs);
+        let widths = self.widths(Base::Full, pairs).into_iter();
+        widths
+            .map(|(key, bits)| (key, (bits * greatest).div_ceil(most)))
+            .collect()
+    }
+
     /// Proves properties of the full circuit, some keys changed, or of parts of it, at narrower
     /// widths; each is given by the path of the part and its name. All widths grow together from
     /// one bit up, until each property is refuted or no longer proved.
@@ -48,8 +64,7 @@ impl Entry {
         asked: &[(Option<&str>, &str)],
         limit: Duration,
     ) -> Vec<Narrower> {
-        let full = self.widths(Base::Full, pairs);
-        let most = full.iter().map(|(_, bits)| *bits).max().unwrap_or(1);
+        let most = self.greatest_width(pairs);
         let start = ThreadTime::now();
         let time = limit.saturating_mul(2 * asked.len() as u32);
         let mut found = vec![Narrower::default(); asked.len()];
@@ -58,10 +73,7 @@ impl Entry {
             if open.is_empty() || start.elapsed() > time {
                 break;
             }
-            let widths: Vec<_> = full
-                .iter()
-                .map(|(key, bits)| (key.clone(), (bits * greatest).div_ceil(most)))
-                .collect();
+            let widths = self.widths_at(pairs, greatest);
             let narrow = widths
                 .iter()
                 .map(|(key, bits)| Pair::new(key.clone(), *bits));

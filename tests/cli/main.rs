@@ -22,6 +22,7 @@ mod compare_refusals;
 mod damage;
 mod drawings;
 mod dumps;
+mod equal;
 mod fault_reports;
 mod files;
 mod from_waves;

@@ -143,6 +143,32 @@ fn fresh(note: &str, folder: &Path) -> String {
     fresh + &note[written..]
 }
 
+/// Compares a note with what its commands print, or writes it anew.
+#[track_caller]
+fn keep(path: &str, note: &str, fresh: &str) {
+    if fresh != note && std::env::var_os("UPDATE_NOTES").is_some_and(|value| value == "1") {
+        return fs::write(checkout().join(path), fresh).unwrap();
+    }
+    let mut lines = fresh.lines().zip(note.lines()).zip(1..);
+    let other = lines.find(|((fresh, old), _)| fresh != old);
+    if let Some(((fresh, old), line)) = other {
+        panic!(
+            "{path}:{line}: not what is printed:\n  {old}\n  {fresh}\n  UPDATE_NOTES=1 cargo test \
+             --release --test cosim note_shows -- --ignored writes it anew"
+        );
+    }
+    assert_eq!(fresh, note);
+}
+
+/// Runs the commands of another note in such a folder, and compares what they print.
+#[track_caller]
+pub fn hold_note(path: &str) {
+    let note = fs::read_to_string(checkout().join(path)).unwrap();
+    let folder = folder();
+    let fresh = fresh(&note, folder.path());
+    keep(path, &note, &fresh);
+}
+
 fn hold(golden: PathBuf, other: PathBuf, map: &str) -> Report {
     let map = Map::parse("names.toml", map).unwrap();
     let settings = Settings {
@@ -172,8 +198,7 @@ fn complete(report: &Report, ticks: u64) {
 #[test]
 #[ignore = "needs Icarus Verilog, Verilator and GHDL"]
 fn the_note_shows_what_its_commands_print() {
-    let path = checkout().join(NOTE);
-    let note = fs::read_to_string(&path).unwrap();
+    let note = fs::read_to_string(checkout().join(NOTE)).unwrap();
     let folder = folder();
     let fresh = fresh(&note, folder.path());
 
@@ -207,18 +232,7 @@ fn the_note_shows_what_its_commands_print() {
     );
     assert_eq!(report.differences.len(), 8, "{report}");
 
-    if fresh != note && std::env::var_os("UPDATE_NOTES").is_some_and(|value| value == "1") {
-        return fs::write(&path, fresh).unwrap();
-    }
-    let mut lines = fresh.lines().zip(note.lines()).zip(1..);
-    let other = lines.find(|((fresh, old), _)| fresh != old);
-    if let Some(((fresh, old), line)) = other {
-        panic!(
-            "{NOTE}:{line}: not what is printed:\n  {old}\n  {fresh}\n  UPDATE_NOTES=1 cargo test \
-             --release --test cosim golden_model -- --ignored writes it anew"
-        );
-    }
-    assert_eq!(fresh, note);
+    keep(NOTE, &note, &fresh);
 }
 
 /// Runs the design of the note, with one text of it replaced, on the stimulus in `run`.

@@ -1,6 +1,7 @@
 //! Every circuit's Verilog and VHDL against the model, in simulators and in synthesis.
 
 mod dpi;
+mod equal;
 mod ghdl;
 mod golden_model;
 mod plotter;
