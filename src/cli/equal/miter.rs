@@ -54,6 +54,10 @@ impl<'a> Wires<'a> {
     }
 }
 
+/// What drives the input ports of the design, and the ports of the miter for its free bits with
+/// their widths.
+type Driven<'a> = (Vec<(&'a str, String)>, Vec<(String, usize)>);
+
 /// Returns the declaration of an input port.
 fn input(name: &str, width: usize) -> String {
     format!("input wire {}{}", range(width), identifier(name))
@@ -201,9 +205,7 @@ impl Miter<'_> {
         pieces
     }
 
-    /// Returns what drives the input ports of the design, and the ports of the miter for its free
-    /// bits, with their widths.
-    fn driven(&self) -> (Vec<(&str, String)>, Vec<(String, usize)>) {
+    fn driven(&self) -> Driven<'_> {
         let (mut inputs, mut free) = (Vec::new(), Vec::new());
         for (number, (port, width)) in self.design.inputs.iter().enumerate() {
             let pieces = self.pieces(port);

@@ -475,10 +475,12 @@ fn connections(
     for (port, width) in &golden.inputs {
         let is_port =
             |signal: &SignalInfo| signal.verilog == *port && signal.port == Some(PortDirection::In);
-        if !signals.iter().any(is_port) && port != "clk" && port != "rst" {
-            if let Some(like) = check.signals.first() {
-                signals.push(renamed(like, port, *width, PortDirection::In));
-            }
+        if !signals.iter().any(is_port)
+            && port != "clk"
+            && port != "rst"
+            && let Some(like) = check.signals.first()
+        {
+            signals.push(renamed(like, port, *width, PortDirection::In));
         }
     }
     Ok(Ok((

@@ -68,7 +68,7 @@ pub fn hold(
 ) -> Result<(), Failure> {
     let (stem, top) = (check.entry.name, &*check.design.top);
     let texts = check.design.files.iter().flat_map(fs::read_to_string);
-    let entity = texts.filter_map(|text| Entity::find(&text, top)).last();
+    let entity = texts.filter_map(|text| Entity::find(&text, top)).next_back();
     let entity = entity.ok_or_else(|| {
         let problem = format!("no file declares the entity {top} with ports");
         refused("DESIGN", problem, "a file with the entity that --top names")
