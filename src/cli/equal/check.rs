@@ -195,7 +195,7 @@ impl<'a> Check<'a> {
             written.push(extension, script);
         }
         let mut sides = [String::new(), String::new()];
-        for (text, side) in sides.iter_mut().zip(["golden", "design"]) {
+        for (text, side) in sides.iter_mut().zip(script::SIDES) {
             let ran = match work.run(self, &names.side(side, "ys"), until) {
                 Ok(ran) => ran,
                 Err(error) => return Ok(Outcome::open(self.not_started(&error))),
@@ -209,7 +209,8 @@ impl<'a> Check<'a> {
             written.push("template.toml", template::template(self, &paired));
             return Ok(Outcome::open(Failure::Undecided(text.unpaired())));
         }
-        let run = random::run(self, &work, &paired, until)?;
+        let resets = self.design.reset.is_some();
+        let run = random::run(self, &work, &paired, resets, until)?;
         if self.design.is_vhdl {
             vhdl::hold(self, &work, &paired, &run, until)?;
         }
@@ -257,6 +258,15 @@ impl<'a> Check<'a> {
         let mut open = Vec::new();
         if ran.is_open() {
             open = report::differing(&self.signals, &paired, &task.read_trace(&work)?);
+        }
+        if !ran.is_difference() && resets {
+            // Counts go further without resets.
+            let run = random::run(self, &work, &paired, false, self.arguments.until())?;
+            if let Some(trace) = random::difference(self, &work, &paired, run)? {
+                return Ok(Outcome::Differs(Box::new(paired), trace));
+            }
+        }
+        if ran.is_open() {
             // A narrower circuit is only proved.
             if self.width.is_none() {
                 let script = format!("{stem}.search.ys");

@@ -13,6 +13,9 @@ use motion_rtl::sim::{Handle, ModelError, PortDirection, SignalInfo};
 /// Greatest width of a register whose values are looked at one by one.
 const WIDEST: usize = 6;
 
+/// Least value that is taken for a count, not a state.
+const STATES: u64 = 8;
+
 /// Random runs from power-on, and ticks of each.
 const RUNS: u32 = 100;
 const TICKS: u32 = 300;
@@ -155,7 +158,8 @@ pub fn candidates(
     Ok(candidates)
 }
 
-/// Removes the candidates that a tick of a trace breaks; returns true if there were any.
+/// Removes the candidates that a tick of a trace breaks; returns true if there were any. A count
+/// that leaves its range goes on: the other candidates beyond `STATES` go too, not one by one.
 pub fn refute(
     candidates: &mut Vec<Invariant>,
     trace: &Trace,
@@ -167,7 +171,15 @@ pub fn refute(
             let bits = trace.bits(&wire(index), tick).unwrap_or_default();
             u64::from_str_radix(bits, 2).unwrap_or(0)
         };
-        candidates.retain(|candidate| candidate.holds(value));
+        let counts: Vec<usize> = candidates
+            .iter()
+            .filter(|candidate| candidate.value >= STATES && !candidate.holds(value))
+            .map(|candidate| candidate.signal)
+            .collect();
+        candidates.retain(|candidate| {
+            let goes_on = candidate.value >= STATES && counts.contains(&candidate.signal);
+            candidate.holds(value) && !goes_on
+        });
     }
     candidates.len() < before
 }
@@ -208,16 +220,25 @@ mod tests {
         let dump = "$var wire 2 a \\w0 $end\n$var wire 4 b \\w1 $end\n\
                     #0\nb10 a\nb0001 b\n#2\nb10 a\nb0000 b\n#3\n";
         let trace = Trace::read(dump);
-        let three = Invariant {
-            signal: 0,
-            value: 3,
+        let is_not = |signal: usize, value: u64| Invariant {
+            signal,
+            value,
             state: None,
         };
+        let three = is_not(0, 3);
         let mut candidates = vec![STATE, three.clone()];
         assert!(refute(&mut candidates, &trace, |index| format!("w{index}")));
         assert_eq!(candidates, [three]);
         assert!(!refute(&mut candidates, &trace, |index| format!(
             "w{index}"
         )));
+        // A count at 9 goes on to 10, a state at 1 does not go on to 2.
+        let dump = "$var wire 4 a \\w0 $end\n#0\nb1001 a\n#2\nb0001 a\n#3\n";
+        let mut candidates = [1, 2, 9, 10].map(|value| is_not(0, value)).to_vec();
+        candidates.push(is_not(1, 10));
+        refute(&mut candidates, &Trace::read(dump), |index| {
+            format!("w{index}")
+        });
+        assert_eq!(candidates, [is_not(0, 2), is_not(1, 10)]);
     }
 }

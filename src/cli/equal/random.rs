@@ -21,12 +21,13 @@ const SHARE: u32 = 4;
 /// Time for an earlier difference.
 const EARLIER: Duration = Duration::from_secs(10);
 
-/// Runs the model and the design with the same random inputs; returns the run of the design, without
-/// ticks if it takes too long.
+/// Runs the model and the design with the same random inputs, and resets if there are to be some;
+/// returns the run of the design, without ticks if it takes too long.
 pub fn run(
     check: &Check<'_>,
     work: &Work,
     paired: &Paired,
+    resets: bool,
     until: Instant,
 ) -> Result<Trace, Failure> {
     let stem = check.entry.name;
@@ -34,7 +35,7 @@ pub fn run(
     let drive = Drive {
         seed: 1,
         ticks,
-        resets: check.design.reset.is_some(),
+        resets,
         clock: Clock::default(),
     };
     let words = format!("{stem}.random.stimulus");

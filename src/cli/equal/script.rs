@@ -3,6 +3,9 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+/// The sides of a proof: the circuit and the design.
+pub const SIDES: [&str; 2] = ["golden", "design"];
+
 /// Ticks that induction assumes at most: a proof over paired registers needs one, more help where
 /// registers have no partner.
 pub const INDUCTION: [u32; 2] = [1, 4];
@@ -107,7 +110,7 @@ impl Names<'_> {
     }
 
     fn sat(self, exposed: &str, options: &str) -> String {
-        let [golden, design] = ["golden", "design"].map(|side| self.side(side, "il"));
+        let [golden, design] = SIDES.map(|side| self.side(side, "il"));
         let (joined, stem) = (self.joined(exposed), self.stem);
         format!(
             "read_rtlil {golden}\nread_rtlil {design}\n{joined}sat -tempinduct -prove-asserts {options} \

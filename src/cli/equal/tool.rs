@@ -2,7 +2,7 @@
 
 use std::fs::{self, File};
 use std::io;
-use std::path::Path;
+use std::path::{self, Path};
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -125,6 +125,11 @@ fn run(
     [log, errors]: [File; 2],
     until: Instant,
 ) -> io::Result<End> {
+    // A path is that from here, not from the directory.
+    let program = match program.components().count() {
+        1 => program.to_owned(),
+        _ => path::absolute(program)?,
+    };
     let mut child = Command::new(program)
         .args(words)
         .current_dir(directory)

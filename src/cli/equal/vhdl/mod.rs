@@ -15,6 +15,9 @@ use std::time::Instant;
 /// Standard of VHDL.
 const STANDARD: &str = "--std=08";
 
+/// Least ticks in which the translation is held against GHDL's simulation.
+const LEAST: usize = 1000;
+
 /// Returns the design in Verilog.
 pub fn translated(check: &Check<'_>, work: &Work, until: Instant) -> Result<String, Failure> {
     let mut words = vec![
@@ -67,8 +70,17 @@ pub fn hold(
     until: Instant,
 ) -> Result<(), Failure> {
     let (stem, top) = (check.entry.name, &*check.design.top);
+    if run.ticks < LEAST {
+        let seconds = check.arguments.limit_seconds;
+        return Err(Failure::Undecided(format!(
+            "the translation of {top} is not simulated for {LEAST} ticks in a quarter of {seconds} s, \
+             and is not held against GHDL's simulation; allow more with --limit-seconds"
+        )));
+    }
     let texts = check.design.files.iter().flat_map(fs::read_to_string);
-    let entity = texts.filter_map(|text| Entity::find(&text, top)).next_back();
+    let entity = texts
+        .filter_map(|text| Entity::find(&text, top))
+        .next_back();
     let entity = entity.ok_or_else(|| {
         let problem = format!("no file declares the entity {top} with ports");
         refused("DESIGN", problem, "a file with the entity that --top names")
