@@ -209,18 +209,18 @@ impl<'a> Check<'a> {
             written.push("template.toml", template::template(self, &paired));
             return Ok(Outcome::open(Failure::Undecided(text.unpaired())));
         }
-        let resets = self.design.reset.is_some();
-        let run = random::run(self, &work, &paired, resets, until)?;
+        let mut run = random::run(self, &work, &paired, until)?;
         if self.design.is_vhdl {
             vhdl::hold(self, &work, &paired, &run, until)?;
         }
-        if let Some(trace) = random::difference(self, &work, &paired, run)? {
-            let earlier = random::earlier(self, &work, &paired, &trace, until)?;
+        if let Some(ticks) = random::difference(self, &work, &paired, &run)? {
+            run.cut(ticks);
+            let earlier = random::earlier(self, &work, &paired, &run, until)?;
             self.scripts(written, &self.miter(&paired, &[]), script::INDUCTION[0]);
-            return Ok(Outcome::Differs(Box::new(paired), earlier.unwrap_or(trace)));
+            return Ok(Outcome::Differs(Box::new(paired), earlier.unwrap_or(run)));
         }
         let files = [modules, memories].concat();
-        let mut parts = None;
+        let (mut parts, mut suspects) = (None, Vec::new());
         if self.arguments.parts {
             let proved = parts::prove(self, &work, &paired, &read, self.arguments.until())?;
             written.0.extend(proved.texts);
@@ -234,7 +234,7 @@ impl<'a> Check<'a> {
                     "{verdict}part by part: {parts}, and their connections\n"
                 )));
             };
-            parts = Some(open);
+            (parts, suspects) = (Some(open), proved.suspects);
         }
         let until = match self.arguments.parts {
             true => self.arguments.until(),
@@ -259,12 +259,14 @@ impl<'a> Check<'a> {
         if ran.is_open() {
             open = report::differing(&self.signals, &paired, &task.read_trace(&work)?);
         }
-        if !ran.is_difference() && resets {
-            // Counts go further without resets.
-            let run = random::run(self, &work, &paired, false, self.arguments.until())?;
-            if let Some(trace) = random::difference(self, &work, &paired, run)? {
-                return Ok(Outcome::Differs(Box::new(paired), trace));
-            }
+        if let Some((pairs, ticks)) = random::at_ports(self, &work, &paired, &suspects, &run)? {
+            run.cut(ticks);
+            return Ok(Outcome::Differs(Box::new(Paired { pairs, ..paired }), run));
+        }
+        if !ran.is_difference()
+            && let Some(trace) = random::without_resets(self, &work, &paired)?
+        {
+            return Ok(Outcome::Differs(Box::new(paired), trace));
         }
         if ran.is_open() {
             // A narrower circuit is only proved.

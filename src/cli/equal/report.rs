@@ -36,8 +36,20 @@ fn count(number: usize, what: &str) -> String {
     }
 }
 
-/// Returns the paired signals that differ at the end of a trace.
+/// Returns the paths of the paired signals that differ at the end of a trace.
 pub fn differing(signals: &[SignalInfo], paired: &Paired, trace: &Trace) -> Vec<String> {
+    let pairs = differing_pairs(signals, paired, trace).into_iter();
+    pairs
+        .map(|pair| signals[pair.signal].path.clone())
+        .collect()
+}
+
+/// Returns the pairs that differ at the end of a trace.
+pub fn differing_pairs<'p>(
+    signals: &[SignalInfo],
+    paired: &'p Paired,
+    trace: &Trace,
+) -> Vec<&'p Pair> {
     let Some(last) = trace.ticks.checked_sub(1) else {
         return Vec::new();
     };
@@ -66,10 +78,7 @@ pub fn differing(signals: &[SignalInfo], paired: &Paired, trace: &Trace) -> Vec<
             false => part != own,
         }
     };
-    let pairs = paired.pairs.held.iter().filter(differs);
-    pairs
-        .map(|pair| signals[pair.signal].path.clone())
-        .collect()
+    paired.pairs.held.iter().filter(differs).collect()
 }
 
 impl Text<'_> {

@@ -53,7 +53,7 @@ pub fn connections(
             }
         };
         if !is_compared {
-            let problem = format!("{path} and {net} of the design are not in the same part");
+            let problem = format!("no part has both {path} and {net} of the design");
             return Ok(Err(problem));
         }
     }

@@ -4,7 +4,7 @@ use super::instances::Instance;
 use super::{Partners, Texts, netlists};
 use crate::cli::equal::Failure;
 use crate::cli::equal::check::{Check, Paired, Work};
-use crate::cli::equal::pairs::{Pair, Sides};
+use crate::cli::equal::pairs::{Pair, Part, Sides};
 use crate::cli::equal::script::Names;
 use crate::cli::equal::task::Task;
 use motion_rtl::compare::Map;
@@ -24,6 +24,7 @@ pub fn leaf(
     check: &Check<'_>,
     work: &Work,
     read: &[String; 2],
+    whole: &Paired,
     (partners, texts): (Partners, &mut Texts),
     until: Instant,
 ) -> Result<Result<Leaf, String>, Failure> {
@@ -88,7 +89,33 @@ pub fn leaf(
         reserved: [design.clock.as_deref(), design.reset.as_deref()],
         map: &map,
     };
-    let pairs = sides.pairs()?;
+    let mut pairs = sides.pairs()?;
+    // What a map pairs in the part.
+    let scope = format!("{}.", design.name);
+    for pair in &whole.pairs.held {
+        let like = &check.signals[pair.signal];
+        if let Some(name) = like.verilog.strip_prefix(&inside)
+            && let Some(net) = pair.part.net.strip_prefix(&scope)
+            && own.nets.contains_key(name)
+            && other.nets.contains_key(net)
+            && pairs
+                .held
+                .iter()
+                .all(|held| signals[held.signal].verilog != name)
+        {
+            let mut signal = like.clone();
+            signal.path = name.to_owned();
+            signal.verilog = name.to_owned();
+            signals.push(signal);
+            pairs.held.push(Pair {
+                signal: signals.len() - 1,
+                part: Part {
+                    net: net.to_owned(),
+                    ..pair.part.clone()
+                },
+            });
+        }
+    }
     Ok(Ok(Leaf {
         signals,
         paired: Paired {
@@ -108,7 +135,7 @@ impl Leaf {
             let modules = [golden.module.clone(), design.module.clone()];
             (modules, design.clock.clone(), design.reset.clone())
         };
-        of(self) == of(other)
+        of(self) == of(other) && self.paired.pairs == other.paired.pairs
     }
 
     /// True if the proof of this part compares a pair of the whole.

@@ -13,7 +13,7 @@ mod leaf;
 use super::Failure;
 use super::check::{Check, Paired, Work};
 use super::netlist::Netlist;
-use super::pairs::{key, listed};
+use super::pairs::{Part, key, listed};
 use super::report;
 use super::script::{self, Names};
 use super::task::Task;
@@ -33,6 +33,8 @@ pub struct Parts {
     pub proved: Vec<String>,
     /// What is not proved, in words.
     pub open: Option<String>,
+    /// Nets of the circuit that the connections can drive in another way, with their partners.
+    pub suspects: Vec<(String, Part)>,
     pub texts: Texts,
 }
 
@@ -68,7 +70,14 @@ pub fn prove(
     let mut leaves: Vec<Leaf> = Vec::new();
     for partners in partners {
         let name = partners.golden.name.clone();
-        match leaf(check, work, read, (partners, &mut parts.texts), until)? {
+        match leaf(
+            check,
+            work,
+            read,
+            whole,
+            (partners, &mut parts.texts),
+            until,
+        )? {
             Ok(leaf) => leaves.push(leaf),
             Err(problem) => return Ok(parts.open(format!("{name}: {problem}"))),
         }
@@ -87,7 +96,7 @@ pub fn prove(
         clock: &check.design.clock,
         reset: check.reset(),
     };
-    if let Some(problem) = unproved(&task, CONNECTIONS, work, &mut parts.texts, until)? {
+    if let Some(problem) = unproved(&task, CONNECTIONS, work, &mut parts, until)? {
         return Ok(parts.open(format!("the {CONNECTIONS} {problem}")));
     }
     for (place, leaf) in leaves.iter().enumerate() {
@@ -96,7 +105,7 @@ pub fn prove(
         if !leaves[..place].iter().any(|other| other.is_like(leaf)) {
             let stem = self::stem(check, name);
             let task = leaf.task(check, &stem);
-            if let Some(problem) = unproved(&task, name, work, &mut parts.texts, until)? {
+            if let Some(problem) = unproved(&task, name, work, &mut parts, until)? {
                 return Ok(parts.open(format!("the part {name} {problem}")));
             }
         }
@@ -110,19 +119,27 @@ fn unproved(
     task: &Task<'_>,
     part: &str,
     work: &Work,
-    texts: &mut Texts,
+    parts: &mut Parts,
     until: Instant,
 ) -> Result<Option<String>, Failure> {
     let proof = task.prove(work, until)?;
     let miter = task.miter(&proof.invariants);
-    texts.push((format!("{part}.miter.v"), miter.text()));
     let script = task.names.miter(&miter.exposed(), proof.induction);
+    let texts = &mut parts.texts;
+    texts.push((format!("{part}.miter.v"), miter.text()));
     texts.push((format!("{part}.miter.ys"), script));
     Ok(match proof.ran.end {
         End::Success if proof.ran.is_proof() => None,
         End::Success => {
-            let differing = report::differing(task.signals, task.paired, &task.read_trace(work)?);
-            let differing = listed(differing.iter().map(String::as_str));
+            let trace = task.read_trace(work)?;
+            let pairs = report::differing_pairs(task.signals, task.paired, &trace);
+            let signals = pairs.iter().map(|pair| &task.signals[pair.signal]);
+            let differing = listed(signals.clone().map(|signal| &*signal.path));
+            if part == CONNECTIONS {
+                let nets = signals.map(|signal| signal.verilog.clone());
+                let partners = pairs.iter().map(|pair| pair.part.clone());
+                parts.suspects = nets.zip(partners).collect();
+            }
             let reachable = match proof.ran.is_difference() {
                 true => "can differ in",
                 false => "can, from states that may be unreachable, differ in",
