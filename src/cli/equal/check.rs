@@ -259,14 +259,17 @@ impl<'a> Check<'a> {
         if ran.is_open() {
             open = report::differing(&self.signals, &paired, &task.read_trace(&work)?);
         }
-        if let Some((pairs, ticks)) = random::at_ports(self, &work, &paired, &suspects, &run)? {
+        if let Some((pairs, ticks)) = random::at_ports(self, &work, &paired, &suspects, &mut run)? {
             run.cut(ticks);
             return Ok(Outcome::Differs(Box::new(Paired { pairs, ..paired }), run));
         }
         if !ran.is_difference()
-            && let Some(trace) = random::without_resets(self, &work, &paired)?
+            && let Some((pairs, trace)) = random::without_resets(self, &work, &paired, &suspects)?
         {
-            return Ok(Outcome::Differs(Box::new(paired), trace));
+            return Ok(Outcome::Differs(
+                Box::new(Paired { pairs, ..paired }),
+                trace,
+            ));
         }
         if ran.is_open() {
             // A narrower circuit is only proved.

@@ -80,19 +80,24 @@ fn of(
         End::Success => {
             let mut trace = Trace::simulated(&work.read(&format!("{stem}.trace.vcd"))?);
             trace.cut(ticks as usize);
+            for pair in &paired.pairs.held {
+                trace.add(&pair.part.net, &paired.design);
+            }
             Ok(trace)
         }
         End::Failure | End::Late => Ok(Trace::default()),
     }
 }
 
-/// Runs without resets, in which counts go further; returns the run to the first difference. Of many
-/// seeds, those count that move most signals of the model.
+/// Runs without resets, in which counts go further; returns the run to the first difference, at
+/// paired signals or else at `ports`, with its pairs. Of many seeds, those count that move most
+/// signals of the model.
 pub fn without_resets(
     check: &Check<'_>,
     work: &Work,
     paired: &Paired,
-) -> Result<Option<Trace>, Failure> {
+    ports: &[(String, Part)],
+) -> Result<Option<(Pairs, Trace)>, Failure> {
     let until = share(check);
     let half = Instant::now() + (until - Instant::now()) / 2;
     let mut ranked = Vec::new();
@@ -115,9 +120,13 @@ pub fn without_resets(
     ranked.sort_by_key(|(still, bits, _)| (*still, *bits));
     for (_, _, drive) in ranked.into_iter().take(BEST) {
         let mut run = of(check, work, paired, drive, until)?;
-        if let Some(ticks) = difference(check, work, paired, &run)? {
+        let found = match difference(check, work, paired, &run)? {
+            Some(ticks) => Some((paired.pairs.clone(), ticks)),
+            None => at_ports(check, work, paired, ports, &mut run)?,
+        };
+        if let Some((pairs, ticks)) = found {
             run.cut(ticks);
-            return Ok(Some(run));
+            return Ok(Some((pairs, run)));
         }
     }
     Ok(None)
@@ -130,7 +139,7 @@ pub fn at_ports(
     work: &Work,
     paired: &Paired,
     ports: &[(String, Part)],
-    run: &Trace,
+    run: &mut Trace,
 ) -> Result<Option<(Pairs, usize)>, Failure> {
     for (port, part) in ports {
         let bits = |net: &str| paired.golden.nets.get(net).map(|net| &net.bits);
@@ -140,6 +149,7 @@ pub fn at_ports(
         let Some(signal) = check.signals.iter().position(drives) else {
             continue;
         };
+        run.add(&part.net, &paired.design);
         let mut pairs = paired.pairs.clone();
         pairs.inputs.retain(|pair| pair.signal != signal);
         pairs.held.retain(|pair| pair.signal != signal);

@@ -1,5 +1,6 @@
 //! A run from power-on to a difference, as Yosys finds it.
 
+use super::netlist::Netlist;
 use motion_rtl::netlist::Module;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -67,6 +68,26 @@ impl Trace {
         let falls = |line: &&str| line.starts_with('#') && line.ends_with('5');
         let lines: Vec<&str> = text.lines().filter(|line| !falls(line)).collect();
         Self::read(&lines.join("\n"))
+    }
+
+    /// Adds a net of the design by the values of another one with the same driver: a simulation by
+    /// Yosys dumps one name of each.
+    pub fn add(&mut self, net: &str, design: &Netlist) {
+        let name = |net: &str| format!("design.{net}");
+        let Some(own) = design.nets.get(net) else {
+            return;
+        };
+        if self.nets.contains_key(&name(net)) {
+            return;
+        }
+        let mut nets = design.nets.iter();
+        let values = nets.find_map(|(other, of)| {
+            let values = self.nets.get(&name(other))?;
+            (of.bits == own.bits).then(|| values.clone())
+        });
+        if let Some(values) = values {
+            self.nets.insert(name(net), values);
+        }
     }
 
     /// Leaves only the first ticks.
@@ -173,6 +194,24 @@ fn hexadecimal(bits: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_net_has_the_values_of_its_driver() {
+        let text = r#"{"modules": {"design": {"ports": {}, "cells": {}, "netnames": {
+            "other": {"hide_name": 0, "bits": [3]}, "own": {"hide_name": 0, "bits": [2]},
+            "port": {"hide_name": 0, "bits": [2]}, "none": {"hide_name": 0, "bits": [4]}}}}}"#;
+        let design = Netlist::read(text, "design", "clk").unwrap();
+        let dump = "$var wire 1 a design.other $end\n$var wire 1 b design.own $end\n\
+                    #0\nb0 a\nb1 b\n#10\n";
+        let mut trace = Trace::read(dump);
+        for net in ["port", "none", "other", "unknown"] {
+            trace.add(net, &design);
+        }
+        let bits = |net: &str| trace.bits(net, 0);
+        assert_eq!(bits("design.port"), Some("1"));
+        assert_eq!(bits("design.other"), Some("0"));
+        assert_eq!(bits("design.none"), None);
+    }
 
     /// A dump as Yosys 0.23 writes it: the state at power-on, then the first tick.
     const DUMP: &str = "\
