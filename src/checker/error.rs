@@ -27,6 +27,14 @@ pub enum CheckerError {
         /// Number of words of a tick.
         words: usize,
     },
+    /// A tick has another number of values of `std_logic`.
+    #[error("{given} values of std_logic for a tick; allowed: {values}")]
+    Values {
+        /// Number of given values.
+        given: usize,
+        /// Number of values of a tick.
+        values: usize,
+    },
 }
 
 crate::netlist::debug_as_display!(CheckerError);

@@ -6,7 +6,9 @@
 
 mod edge;
 mod error;
+mod logic;
 mod ports;
+mod printed;
 mod recent;
 mod report;
 mod waves;
@@ -15,11 +17,13 @@ mod words;
 pub use error::CheckerError;
 pub(crate) use ports::Port;
 pub use ports::PortList;
+pub(crate) use printed::PrintedChecker;
 pub use words::{Place, PortWords};
 
 use crate::netlist::Shape;
-use crate::sim::{Model, ModelError, PortDirection};
+use crate::sim::{Model, ModelError};
 use crate::trace::WaveFormat;
+use logic::LogicPorts;
 use recent::Recent;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -28,8 +32,11 @@ use waves::Waves;
 /// Version of this crate.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Version of the functions that printed checkers call, and of the words that they pass.
+/// Version of the functions that printed checkers in SystemVerilog call, and of the words that they pass.
 pub const DPI_VERSION: u32 = 1;
+
+/// Version of the functions that printed checkers in VHDL call.
+pub const VHPI_VERSION: u32 = 1;
 
 /// Settings of a [`Checker`].
 #[derive(Debug, Clone, Default)]
@@ -92,6 +99,7 @@ pub struct Checker {
     /// Bits of each word that are of a port.
     used: Vec<u64>,
     left: Vec<String>,
+    logic: LogicPorts,
     state: State,
     from_power_on: bool,
     /// Words of the last tick.
@@ -163,18 +171,20 @@ impl Checker {
                 });
             }
         }
-        let (left, kept): (Vec<_>, Vec<_>) = list
-            .ports
-            .into_iter()
-            .partition(|port| left.contains(&port.handle));
+        let all: Vec<_> = list.inputs_first().map(Port::clone).collect();
+        let (left, kept): (Vec<_>, Vec<_>) =
+            (all.iter().cloned()).partition(|port| left.contains(&port.handle));
         let layout = PortWords::of_ports(kept.iter().map(|port| (port.direction, port.shape)));
-        let (inputs, outputs): (Vec<_>, Vec<_>) = kept
-            .into_iter()
-            .partition(|port| port.direction == PortDirection::In);
         let places = layout.inputs.iter().chain(&layout.outputs);
-        let ports: Vec<CheckedPort> = inputs
+        let mut kept_places = places.clone().copied();
+        let logic = all.iter().map(|port| {
+            let is_left = left.iter().any(|other| other.handle == port.handle);
+            let place = if is_left { None } else { kept_places.next() };
+            (port.shape.width, place)
+        });
+        let logic = LogicPorts::of(logic, layout.words);
+        let ports: Vec<CheckedPort> = kept
             .into_iter()
-            .chain(outputs)
             .zip(places)
             .map(|(port, &place)| CheckedPort {
                 name: port.path,
@@ -209,6 +219,7 @@ impl Checker {
             used,
             layout,
             left: left.into_iter().map(|port| port.path).collect(),
+            logic,
             state: State::Waiting,
             from_power_on,
             waves: options.waves.clone().map(Waves::new),
@@ -225,7 +236,7 @@ impl Checker {
         &self.layout
     }
 
-    /// Marks a port of the tick to come as unknown: bits of it are x or z. `port` counts input
+    /// Marks a port of the tick to come as unknown: bits of it are neither 0 nor 1. `port` counts input
     /// ports, then output ports, without those that are left out; `None` is the reset. `bits` are
     /// its binary digits for the report, the highest first.
     pub fn unknown(&mut self, port: Option<usize>, bits: &str) {

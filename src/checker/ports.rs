@@ -46,6 +46,16 @@ impl PortList {
         }
     }
 
+    /// Returns the input ports, then the output ports.
+    pub(crate) fn inputs_first(&self) -> impl Iterator<Item = &Port> {
+        let of = |direction| {
+            self.ports
+                .iter()
+                .filter(move |port| port.direction == direction)
+        };
+        of(PortDirection::In).chain(of(PortDirection::Out))
+    }
+
     /// Returns one line per port, each with its newline: `in period 8 unsigned`.
     ///
     /// ```

@@ -1,3 +1,4 @@
+mod logic;
 mod waves;
 
 use super::*;

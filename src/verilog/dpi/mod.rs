@@ -3,9 +3,9 @@
 mod package;
 
 use super::text::{MARK, column, range};
-use crate::checker::{DPI_VERSION, Place, Port, PortList, PortWords, VERSION};
-use crate::printed::{SourceFile, annotated, ascii};
-use crate::sim::{Model, ModelError, PortDirection};
+use crate::checker::{DPI_VERSION, Place, Port, PortWords, PrintedChecker, VERSION};
+use crate::printed::{SourceFile, annotated};
+use crate::sim::{Model, ModelError};
 use std::fmt::Write as _;
 
 /// Words that a call passes.
@@ -32,14 +32,10 @@ const OWN: &str = "mrtl$";
 /// ```
 #[derive(Debug, Clone)]
 pub struct DpiChecker {
-    circuit: String,
-    /// One `key=value` per line.
-    settings: String,
-    clocked: bool,
-    hash: u64,
+    printed: PrintedChecker,
     /// Paths of the ports that are left out.
     left: Vec<String>,
-    /// Input ports, then output ports, with their places.
+    /// Input ports, then output ports, with their places; without those that are left out.
     ports: Vec<(Port, Place)>,
     words: usize,
 }
@@ -68,39 +64,30 @@ impl DpiChecker {
     /// # Errors
     /// Returns an error if a signal to leave out does not exist.
     pub fn new(model: &Model, settings: &str, left: &[String]) -> Result<Self, ModelError> {
-        let list = PortList::of(model);
-        let hash = list.hash();
+        let printed = PrintedChecker::of(model, settings);
         let handles = left.iter().map(|name| model.find(name.as_str()));
         let handles = handles.collect::<Result<Vec<_>, _>>()?;
-        let (left, kept): (Vec<_>, Vec<_>) = list
-            .ports
-            .into_iter()
-            .partition(|port| handles.contains(&port.handle));
+        let (left, kept): (Vec<_>, Vec<_>) =
+            (printed.ports.iter().cloned()).partition(|port| handles.contains(&port.handle));
         let layout = PortWords::of_ports(kept.iter().map(|port| (port.direction, port.shape)));
-        let (inputs, outputs): (Vec<_>, Vec<_>) = kept
-            .into_iter()
-            .partition(|port| port.direction == PortDirection::In);
         let places = layout.inputs.iter().chain(&layout.outputs).copied();
         Ok(DpiChecker {
-            circuit: model.name().to_owned(),
-            settings: settings.trim().to_owned(),
-            clocked: list.clocked,
-            hash,
+            printed,
             left: left.into_iter().map(|port| port.path).collect(),
-            ports: inputs.into_iter().chain(outputs).zip(places).collect(),
+            ports: kept.into_iter().zip(places).collect(),
             words: layout.words,
         })
     }
 
     /// Returns true if the circuit has registers, and thus a clock and a reset.
     pub fn is_clocked(&self) -> bool {
-        self.clocked
+        self.printed.clocked
     }
 
     /// Returns the package with the functions of the library, and the checker.
     pub fn sources(&self) -> [SourceFile; 2] {
         let checker = SourceFile {
-            name: format!("{}_checker.sv", self.circuit),
+            name: format!("{}_checker.sv", self.printed.circuit),
             text: self.module(),
         };
         [package::package(), checker]
@@ -108,9 +95,9 @@ impl DpiChecker {
 
     /// Returns the statement that binds the checker to a module.
     pub fn binding(&self, binding: &Binding) -> SourceFile {
-        let circuit = &self.circuit;
+        let circuit = &self.printed.circuit;
         let mut ports = vec![format!("    .clk ({})", binding.clock)];
-        if self.clocked {
+        if self.printed.clocked {
             ports.push(format!("    .rst ({})", binding.reset));
         }
         let mut bits = Vec::new();
@@ -155,21 +142,17 @@ bind {module} {circuit}_checker #(
             format!("    input wire {:width$}clk,", ""),
             "Clock.".to_owned(),
         )];
-        if self.clocked {
+        if self.printed.clocked {
             lines.push((
                 format!("    input wire {:width$}rst,", ""),
                 "Synchronous reset.".to_owned(),
             ));
         }
         for (port, _) in &self.ports {
-            let side = match port.direction {
-                PortDirection::In => "Input:",
-                PortDirection::Out => "Output:",
-            };
             let range = range(port.shape);
             lines.push((
                 format!("    input wire {range:width$}{},", port.verilog),
-                ascii(&format!("{side} {}", port.doc)),
+                port.comment(),
             ));
         }
         if let Some((last, _)) = lines.last_mut() {
@@ -243,7 +226,7 @@ bind {module} {circuit}_checker #(
     }
 
     fn reset(&self) -> &'static str {
-        match self.clocked {
+        match self.printed.clocked {
             true => "{31'd0, rst}",
             false => "0",
         }
@@ -251,7 +234,7 @@ bind {module} {circuit}_checker #(
 
     /// Returns the statements that report ports with unknown bits.
     fn unknowns(&self) -> String {
-        let reset = self.clocked.then_some(("rst", -1));
+        let reset = self.printed.clocked.then_some(("rst", -1));
         let ports = (0..).zip(&self.ports);
         let ports = ports.map(|(index, (port, _))| (port.verilog.as_str(), index));
         let lines = reset.into_iter().chain(ports).map(|(name, index): (&str, i32)| {
@@ -264,35 +247,17 @@ bind {module} {circuit}_checker #(
     }
 
     fn all(&self) -> String {
-        let reset = self.clocked.then_some("rst").into_iter();
+        let reset = self.printed.clocked.then_some("rst").into_iter();
         let ports = self.ports.iter().map(|(port, _)| port.verilog.as_str());
         reset.chain(ports).collect::<Vec<_>>().join(", ")
     }
 
     fn module(&self) -> String {
-        let circuit = &self.circuit;
-        let settings = self.settings.replace('\n', "\\n");
-        let about = match self.settings.is_empty() {
-            true => String::new(),
-            false => format!(" with {}", self.settings.replace('\n', ", ")),
-        };
-        let begins = match self.clocked {
-            true => {
-                "\
-// The comparison begins with the edge after the first one at which rst is 1, or, with
-// FROM_POWER_ON, with the first edge."
-            }
-            false => "// The circuit has no registers: the comparison begins with the first edge.",
-        };
+        let circuit = &self.printed.circuit;
+        let settings = self.printed.settings.replace('\n', "\\n");
         format!(
             "\
-// Checker of {circuit}{about}, made by motion-rtl {VERSION}.
-//
-// Compares the ports of a design with the model at every rising edge of clk. All ports are inputs
-// of the checker. At the end of the simulation it prints PASS, FAIL or VACUOUS.
-{begins}
-// Drive the inputs of the design with <= at the edge, or between edges.
-
+{head}
 /* verilator lint_off TIMESCALEMOD */
 module {circuit}_checker #(
     // 1: compares from the first edge on, with the model at power-on.
@@ -354,11 +319,12 @@ module {circuit}_checker #(
 
 endmodule
 ",
+            head = self.printed.head(MARK),
             ports = self.declared(),
             count = self.ports.len(),
             widths = self.widths().join(", "),
             fits = self.fits(),
-            hash = self.hash,
+            hash = self.printed.hash,
             left = self.left.join("\\n"),
             unknowns = self.unknowns(),
             all = self.all(),
