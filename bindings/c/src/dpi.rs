@@ -3,166 +3,17 @@
 //! The simulator copies a string that a function returns before it calls the next one.
 
 use crate::bench::caught;
-use crate::codes::{MRTL_FULL, MRTL_MISMATCH, MRTL_OK, MRTL_WRONG_HANDLE};
-use crate::failure::Failure;
-use crate::lifetime::pairs;
-use crate::table::Table;
+use crate::beside::{self, Beside, CALL, Interface, Made, WRONG, on};
+use crate::codes::{MRTL_MISMATCH, MRTL_OK, MRTL_WRONG_HANDLE};
 use crate::text;
-use motion_rtl::Model;
-use motion_rtl::checker::{
-    Checker, CheckerError, DPI_VERSION, Options, PortList, VERSION, Verdict,
-};
-use std::cell::RefCell;
-use std::ffi::{CStr, CString, c_char};
-use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, PoisonError};
-
-/// Words that a call passes.
-const CALL: usize = 8;
+use std::ffi::c_char;
 
 /// Index that stands for the reset.
 const RESET: i32 = -1;
 
-static CHECKERS: Table<Beside, { 1 << 29 }> = Table::new();
-
-thread_local! {
-    /// Reason why the last checker of this thread was not made.
-    static ERROR: RefCell<CString> = RefCell::default();
-}
-
-/// Checker of an instance of a design.
-struct Beside {
-    checker: Checker,
-    instance: String,
-    /// Words of the tick, with room for whole calls.
-    words: Vec<u64>,
-    /// Number of words.
-    count: usize,
-    /// Text that the simulator prints.
-    text: CString,
-}
-
-/// Comparisons of this process.
-struct Comparisons {
-    /// Instances whose comparison has not ended.
-    running: Vec<(i32, String)>,
-    /// True if a comparison has not passed.
-    failed: bool,
-    /// True if the end of the process is watched.
-    watched: bool,
-}
-
-static COMPARISONS: Mutex<Comparisons> = Mutex::new(Comparisons {
-    running: Vec::new(),
-    failed: false,
-    watched: false,
-});
-
-fn comparisons() -> MutexGuard<'static, Comparisons> {
-    COMPARISONS.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Says which comparisons have no verdict, because the simulator has not run its final blocks.
-extern "C" fn at_exit() {
-    for (_, instance) in &comparisons().running {
-        eprintln!(
-            "FAIL: {instance}: the comparison has not ended; a bench in C++ calls final() of the \
-             model before it exits"
-        );
-    }
-}
-
-unsafe extern "C" {
-    fn atexit(call: extern "C" fn()) -> i32;
-}
-
-/// Returns a text for the simulator: without the last newline, and without NUL.
-fn printed(text: &str) -> CString {
-    let end = text.find('\0').unwrap_or(text.len());
-    CString::new(text[..end].trim_end()).unwrap_or_default()
-}
-
-fn of_checker(error: CheckerError) -> Failure {
-    match error {
-        CheckerError::Model(error) => error.into(),
-        other => Failure::new(MRTL_MISMATCH, other.to_string()),
-    }
-}
-
-/// Files that a parameter of a checker names.
-fn waves(pattern: &str, instance: &str) -> Option<PathBuf> {
-    let plain = |letter: char| match letter {
-        'a'..='z' | 'A'..='Z' | '0'..='9' | '.' | '_' | '-' => letter,
-        _ => '_',
-    };
-    let name: String = instance.chars().map(plain).collect();
-    (!pattern.is_empty()).then(|| pattern.replace("%m", &name).into())
-}
-
 /// Returns the name of an instance without the scope that some versions of Verilator put around all.
 fn without_top(instance: &str) -> &str {
     instance.strip_prefix("TOP.").unwrap_or(instance)
-}
-
-/// Strings that a checker passes.
-struct Strings<'t> {
-    version: &'t str,
-    circuit: &'t str,
-    settings: &'t str,
-    left: &'t str,
-    waves: &'t str,
-    instance: &'t str,
-}
-
-fn made(dpi: i32, ports: u64, from_power_on: bool, strings: Strings<'_>) -> Result<i32, Failure> {
-    let Strings {
-        version,
-        circuit,
-        settings,
-        left,
-        waves: pattern,
-        instance,
-    } = strings;
-    if version != VERSION || u32::try_from(dpi) != Ok(DPI_VERSION) {
-        let text = format!(
-            "the checker is of motion-rtl {version} (DPI {dpi}), the library of {VERSION} (DPI \
-             {DPI_VERSION}); `motion-rtl verilog {circuit} --dpi` prints the checker anew"
-        );
-        return Err(Failure::new(MRTL_MISMATCH, text));
-    }
-    let model = Model::new(circuit, &pairs(settings)?)?;
-    let list = PortList::of(&model);
-    if list.hash() != ports {
-        let text = format!(
-            "{circuit} has other ports than the checker is made for; `motion-rtl verilog {circuit} \
-             --dpi` prints the checker anew; the ports are:\n{}",
-            list.text()
-        );
-        return Err(Failure::new(MRTL_MISMATCH, text.trim_end()));
-    }
-    let options = Options {
-        leave: left.lines().map(str::to_owned).collect(),
-        from_power_on,
-        waves: waves(pattern, instance),
-    };
-    let checker = Checker::new(model, &options).map_err(of_checker)?;
-    let count = checker.words().words;
-    let beside = Beside {
-        checker,
-        instance: instance.to_owned(),
-        words: vec![0; count.next_multiple_of(CALL).max(CALL)],
-        count,
-        text: CString::default(),
-    };
-    let full = || Failure::new(MRTL_FULL, "there are too many checkers at once");
-    let handle = CHECKERS.insert(beside).ok_or_else(full)?;
-    let mut comparisons = comparisons();
-    if !comparisons.watched {
-        // SAFETY: a handler without arguments that does not unwind.
-        comparisons.watched = unsafe { atexit(at_exit) } == 0;
-    }
-    comparisons.running.push((handle, instance.to_owned()));
-    Ok(handle)
 }
 
 /// Puts a model beside an instance of a design. Returns the handle of the checker, or a negative
@@ -180,51 +31,38 @@ pub unsafe extern "C" fn mrtl_dpi_new(
     instance: *const c_char,
 ) -> i32 {
     caught(|| {
-        let result = || {
+        let mut name = "";
+        let mut result = || {
             // SAFETY: the simulator passes strings, which do not change meanwhile.
-            let strings = unsafe {
-                Strings {
+            let made = unsafe {
+                name = without_top(text::read("instance", instance)?);
+                Made {
+                    interface: Interface::Dpi,
+                    abi: dpi,
                     version: text::read("version", version)?,
                     circuit: text::read("circuit", circuit)?,
                     settings: text::read("settings", settings)?,
-                    left: text::read("left", left)?,
+                    ports,
+                    leave: text::read("left", left)?
+                        .lines()
+                        .map(str::to_owned)
+                        .collect(),
+                    from_power_on: from_power_on != 0,
                     waves: text::read("waves", waves)?,
-                    instance: text::read("instance", instance)?,
+                    instance: name,
                 }
             };
-            let strings = Strings {
-                instance: without_top(strings.instance),
-                ..strings
-            };
-            let name = strings.instance;
-            made(dpi, ports, from_power_on != 0, strings).map_err(|failure| Failure {
-                text: format!("{name}: {}", failure.text),
-                ..failure
-            })
+            beside::made(made)
         };
-        result().unwrap_or_else(|failure| {
-            comparisons().failed = true;
-            ERROR.set(printed(&failure.text));
-            failure.code
-        })
+        let result = result();
+        result.unwrap_or_else(|failure| beside::refused(name, &failure))
     })
 }
 
 /// Returns the reason why the last checker was not made.
 #[unsafe(no_mangle)]
 pub extern "C" fn mrtl_dpi_error() -> *const c_char {
-    ERROR.with_borrow(|text| text.as_ptr())
-}
-
-/// Calls a function with a checker; 0 or a negative code if that cannot be.
-///
-/// # Safety
-/// Calls with one handle do not overlap in time.
-#[inline]
-unsafe fn on(handle: i32, call: impl FnOnce(&mut Beside) -> i32) -> i32 {
-    // SAFETY: this function's contract is that of the table.
-    let result = unsafe { CHECKERS.with(handle, call) };
-    result.unwrap_or_else(|refusal| refusal.code())
+    beside::error(|text| text.as_ptr())
 }
 
 /// Passes words of the tick that ends with the next edge.
@@ -286,10 +124,7 @@ pub unsafe extern "C" fn mrtl_dpi_unknown(handle: i32, port: i32, bits: *const c
 pub unsafe extern "C" fn mrtl_dpi_text(handle: i32) -> *const c_char {
     let mut text: *const c_char = WRONG.as_ptr();
     let take = |beside: &mut Beside| {
-        let said = beside.checker.take_text();
-        if !said.is_empty() {
-            beside.text = printed(&format!("{}: {said}", beside.instance));
-        }
+        beside.take_text();
         text = beside.text.as_ptr();
         MRTL_OK
     };
@@ -299,22 +134,13 @@ pub unsafe extern "C" fn mrtl_dpi_text(handle: i32) -> *const c_char {
     text
 }
 
-const WRONG: &CStr = c"FAIL: the checker cannot go on: a fault inside the library";
-
 /// Ends a comparison, whose report is the text to print. Returns 1 if it is the last comparison
 /// and not all have passed, 0 otherwise.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mrtl_dpi_end(handle: i32) -> i32 {
-    let end = |beside: &mut Beside| match beside.checker.end() {
-        Verdict::Pass => MRTL_OK,
-        Verdict::Fail | Verdict::Vacuous => 1,
-    };
     // SAFETY: a simulator calls functions with one handle one after the other.
-    let verdict = unsafe { on(handle, end) };
-    let mut comparisons = comparisons();
-    comparisons.failed |= verdict != MRTL_OK;
-    comparisons.running.retain(|(other, _)| *other != handle);
-    (verdict == MRTL_WRONG_HANDLE || comparisons.running.is_empty() && comparisons.failed).into()
+    let verdict = unsafe { beside::end(handle) };
+    (verdict == MRTL_WRONG_HANDLE || beside::have_failed(Interface::Dpi)).into()
 }
 
 impl Beside {

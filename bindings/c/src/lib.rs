@@ -14,6 +14,7 @@
 
 mod abi;
 mod bench;
+mod beside;
 mod check;
 mod codes;
 mod dpi;
@@ -23,4 +24,5 @@ mod run;
 mod signals;
 mod table;
 mod text;
+mod vhpi;
 mod waves;

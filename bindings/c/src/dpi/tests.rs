@@ -1,18 +1,24 @@
 use super::*;
+use crate::failure::Failure;
+use motion_rtl::checker::{DPI_VERSION, VERSION};
+use std::ffi::CStr;
 
-const STRINGS: Strings<'static> = Strings {
+const MADE: Made<'static> = Made {
+    interface: Interface::Dpi,
+    abi: DPI_VERSION as i32,
     version: VERSION,
     circuit: "enable_counter",
     settings: "width=8",
-    left: "",
+    // That of the ports with 8 bits.
+    ports: 0xfcb7_d404_ef2a_ff37,
+    leave: Vec::new(),
+    from_power_on: true,
     waves: "",
     instance: "tb.dut",
 };
-/// Hash of the ports with 8 bits.
-const PORTS: u64 = 0xfcb7_d404_ef2a_ff37;
 
-fn new(strings: Strings<'_>) -> Result<i32, Failure> {
-    made(DPI_VERSION as i32, PORTS, true, strings)
+fn new(made: Made<'_>) -> Result<i32, Failure> {
+    beside::made(made)
 }
 
 fn edge(handle: i32, enable: u64) -> i32 {
@@ -35,7 +41,7 @@ fn end(handle: i32) -> i32 {
 
 #[test]
 fn the_last_of_several_checkers_fails_for_all() {
-    let [first, second, third] = [(); 3].map(|()| new(STRINGS).unwrap());
+    let [first, second, third] = [(); 3].map(|()| new(MADE).unwrap());
     for tick in 0..10 {
         assert_eq!(edge(first, tick % 2), 0);
         assert_eq!(edge(third, tick % 2), 0);
@@ -65,35 +71,28 @@ fn the_last_of_several_checkers_fails_for_all() {
 
 #[test]
 fn what_does_not_fit_is_refused_with_a_text() {
-    let error = |strings| new(strings).unwrap_err().text;
-    let version = error(Strings {
+    let error = |made| new(made).unwrap_err().text;
+    let version = error(Made {
         version: "0.0.1",
-        ..STRINGS
+        ..MADE
     });
     assert!(version.starts_with("the checker is of motion-rtl 0.0.1 (DPI 1), the library of "));
-    let ports = error(Strings {
+    let ports = error(Made {
         settings: "width=9",
-        ..STRINGS
+        ..MADE
     });
     assert!(ports.ends_with("the ports are:\nin period 9 unsigned\nout enable 1 unsigned"));
-    let settings = error(Strings {
+    let settings = error(Made {
         settings: "wdth=9",
-        ..STRINGS
+        ..MADE
     });
     assert!(settings.contains("wdth"), "{settings}");
-    let left = error(Strings {
-        left: "enable\ncount",
-        ..STRINGS
+    let left = error(Made {
+        leave: vec!["enable".to_owned(), "count".to_owned()],
+        ..MADE
     });
     assert_eq!(
         left,
         "count is not a port of enable_counter; allowed: period, enable"
     );
-}
-
-#[test]
-fn files_are_named_after_the_instance() {
-    let path = |pattern| waves(pattern, "TOP.a[1].\\b/c");
-    assert_eq!(path("out/%m.vcd"), Some("out/TOP.a_1_._b_c.vcd".into()));
-    assert_eq!((path("a.fst"), path("")), (Some("a.fst".into()), None));
 }
