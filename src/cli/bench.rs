@@ -16,6 +16,18 @@ use motion_rtl::trace::Clock;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+/// Arguments that a checker has no use for. Clap does not ask for what an argument requires if that
+/// conflicts with another one, so those of a testbench are here too.
+pub const UNUSED: [&str; 7] = [
+    "bench",
+    "clock_hz",
+    "ignore_case",
+    "scope",
+    "seed",
+    "skip",
+    "ticks",
+];
+
 /// A circuit and the files that are written of it.
 #[derive(Debug, Args)]
 pub struct Bench {

@@ -1,5 +1,6 @@
 //! `verilog --dpi`: a checker that puts the model beside a design in a simulator.
 
+use super::bench::UNUSED;
 use super::chosen::Chosen;
 use super::export::Export;
 use super::files::Files;
@@ -16,7 +17,7 @@ use std::path::Path;
 pub struct Dpi {
     /// Writes a SystemVerilog checker in place of the circuit: it compares your design with the
     /// model at every clock edge, in your simulator.
-    #[arg(long, group = "design", conflicts_with = "bench")]
+    #[arg(long, group = "design", conflicts_with_all = UNUSED)]
     dpi: bool,
     /// Module of your design to which the checker is bound; the name of the circuit by default.
     #[arg(long, value_name = "NAME", requires = "dpi")]
@@ -95,7 +96,7 @@ pub fn checker(chosen: &Chosen, dpi: &Dpi, names: &Names, out: &Path) -> Result<
     }
     let mut files = Files::begin(out, circuit)?;
     files.export(Export::checker(
-        circuit,
+        &format!("{circuit}_checker"),
         sources,
         format!("verilog {chosen} --dpi"),
     ))?;

@@ -101,19 +101,20 @@ impl Export {
         }
     }
 
-    /// Creates the files of a circuit's checker, in the order in which they are compiled.
-    pub fn checker(circuit: &str, sources: Vec<SourceFile>, name: String) -> Self {
-        let mut list = format!("{MADE}{name}\n");
+    /// Creates the files of a circuit's checker, in the order in which they are compiled, and a
+    /// list of the name `list`.
+    pub fn checker(list: &str, sources: Vec<SourceFile>, name: String) -> Self {
+        let mut text = format!("{MADE}{name}\n");
         for source in &sources {
-            list += &source.name;
-            list += "\n";
+            text += &source.name;
+            text += "\n";
         }
         Export {
             name,
             sources,
             list: SourceFile {
-                name: format!("{circuit}_checker{LIST}"),
-                text: list,
+                name: format!("{list}{LIST}"),
+                text,
             },
         }
     }

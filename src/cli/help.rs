@@ -48,7 +48,8 @@ Examples:
 pub const VHDL: &str = "\
 Examples:
   motion-rtl vhdl unit_law --out build/unit_law
-  motion-rtl vhdl unit_law --testbench 20000 --out build/unit_law";
+  motion-rtl vhdl unit_law --testbench 20000 --out build/unit_law
+  motion-rtl vhdl unit_law --vhpi --library build/c/lib/libmotion_rtl.so --out build/vhpi";
 
 pub const COMPARE: &str = "\
 Examples:

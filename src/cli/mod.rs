@@ -57,6 +57,7 @@ mod trajectory;
 mod verilog;
 mod version;
 mod vhdl;
+mod vhpi;
 mod viewer;
 mod voice;
 mod wave_format;

@@ -1,8 +1,9 @@
-//! `vhdl`: a circuit as VHDL, with a testbench if one is asked for.
+//! `vhdl`: a circuit as VHDL, with a testbench if one is asked for, or a checker by VHPIDIRECT.
 
 use super::Failure;
 use super::bench::{Bench, unprinted, write};
 use super::export::Printed;
+use super::vhpi::{self, Vhpi};
 use clap::Args;
 
 /// Arguments of `vhdl`.
@@ -10,11 +11,16 @@ use clap::Args;
 pub struct Arguments {
     #[command(flatten)]
     bench: Bench,
+    #[command(flatten)]
+    vhpi: Vhpi,
 }
 
 /// Writes the circuit and, if requested, its testbench.
 pub fn vhdl(arguments: &Arguments) -> Result<(), Failure> {
-    let bench = &arguments.bench;
+    let Arguments { bench, vhpi } = arguments;
+    if vhpi.is_asked() {
+        return vhpi::checker(&bench.chosen, vhpi, &bench.out);
+    }
     let circuit = bench.chosen.model()?;
     let vhdl = circuit.vhdl().map_err(|error| unprinted(&error))?;
     write(bench, &*circuit, Printed::Vhdl(&vhdl), "vhdl")

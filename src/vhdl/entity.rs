@@ -195,6 +195,11 @@ fn ports(module: &Module, scope: &Scope, clocked: bool) -> String {
         let kind = format!("{way} {}", subtype(signal.shape));
         ports.push((scope.own(&signal.name), kind, comment(signal)));
     }
+    port_lines(ports)
+}
+
+/// Returns the declarations of ports: their names, their types with a mode, and comments.
+pub(super) fn port_lines(ports: Vec<(String, String, String)>) -> String {
     if ports.is_empty() {
         return String::new();
     }

@@ -26,6 +26,7 @@ mod statements;
 mod testbench;
 mod text;
 mod units;
+mod vhpi;
 mod words;
 
 use crate::engine::EngineError;
@@ -34,6 +35,7 @@ use crate::printed::SourceFile;
 use crate::sim::{Described, Elaborated};
 use crate::trace::Clock;
 use units::{Unit, Units};
+pub use vhpi::{LibraryPath, LibraryPathError, VhpiChecker};
 
 /// A circuit as VHDL-2008.
 #[derive(Debug, Clone)]

@@ -31,13 +31,7 @@ enum Key {
 impl Scope {
     /// Names what `module` declares.
     pub(super) fn of(module: &Module, modules: &Modules<'_>) -> Self {
-        let mut scope = Scope {
-            names: HashMap::new(),
-            taken: reserved().iter().map(|word| (*word).to_owned()).collect(),
-        };
-        for name in ["clk", "rst"] {
-            scope.add(Key::Own(name.to_owned()), name);
-        }
+        let mut scope = Scope::new();
         // The names of ports are what others see.
         let own = module.signals.iter().filter(|own| own.owner.is_none());
         let (ports, hidden): (Vec<_>, Vec<_>) = own.partition(|own| own.is_port());
@@ -79,6 +73,31 @@ impl Scope {
                 let name = format!("{}_{state}", signal.name);
                 scope.add(Key::State(signal.name.clone(), value), &name);
             }
+        }
+        scope
+    }
+
+    /// Names ports, with those of the clock and the reset; `used` are more names that they cannot
+    /// have.
+    pub(super) fn of_ports<'a>(used: &[&str], ports: impl Iterator<Item = &'a str>) -> Self {
+        let mut scope = Scope::new();
+        scope
+            .taken
+            .extend(used.iter().map(|word| (*word).to_owned()));
+        for port in ports {
+            scope.add(Key::Own(port.to_owned()), port);
+        }
+        scope
+    }
+
+    /// Names the clock and the reset.
+    fn new() -> Self {
+        let mut scope = Scope {
+            names: HashMap::new(),
+            taken: reserved().iter().map(|word| (*word).to_owned()).collect(),
+        };
+        for name in ["clk", "rst"] {
+            scope.add(Key::Own(name.to_owned()), name);
         }
         scope
     }

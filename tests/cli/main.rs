@@ -67,6 +67,7 @@ mod verilog;
 mod verilog_dpi;
 mod verilog_stimulus;
 mod vhdl;
+mod vhdl_vhpi;
 #[cfg(unix)]
 mod viewer;
 mod waves_of;

@@ -150,8 +150,10 @@ fn what_does_not_fit_is_refused() {
         assert_eq!(done.code, 2, "{alone:?}");
         assert!(done.stderr.contains("--dpi"), "{}", done.stderr);
     }
-    let done = bench.run(&checker(&["--testbench", "10"]));
-    assert_eq!(done.code, 2, "{}", done.stderr);
+    for more in [["--testbench", "10"], ["--seed", "2"], ["--skip", "1"]] {
+        let done = bench.run(&checker(&more));
+        assert_eq!(done.code, 2, "{more:?}: {}", done.stderr);
+    }
     // A file of somebody's own stays.
     bench.write(
         "v/motion_rtl_pkg.sv",

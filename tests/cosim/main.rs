@@ -12,6 +12,7 @@ mod tools;
 mod trajectory;
 mod turntable;
 mod vhdl;
+mod vhpi;
 mod weld;
 mod yosys;
 mod zoo;

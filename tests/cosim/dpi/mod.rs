@@ -13,8 +13,8 @@ use std::process::{Command, Output};
 use std::sync::OnceLock;
 use tempfile::TempDir;
 
-const CHECKOUT: &str = env!("CARGO_MANIFEST_DIR");
-const PAGE: &str = include_str!("../../../rtl_notes/bindings/systemverilog.md");
+pub const CHECKOUT: &str = env!("CARGO_MANIFEST_DIR");
+pub const PAGE: &str = include_str!("../../../rtl_notes/bindings/systemverilog.md");
 
 /// Verilator, which the environment may choose.
 fn verilator() -> String {
@@ -27,7 +27,7 @@ fn target() -> &'static Path {
 }
 
 /// Exit code and output of a command.
-fn ended(command: &mut Command) -> (Option<i32>, String) {
+pub fn ended(command: &mut Command) -> (Option<i32>, String) {
     let Output {
         status,
         stdout,
@@ -39,14 +39,14 @@ fn ended(command: &mut Command) -> (Option<i32>, String) {
 
 /// Runs a command, and expects it to end well.
 #[track_caller]
-fn run(command: &mut Command) -> String {
+pub fn run(command: &mut Command) -> String {
     let (code, text) = ended(command);
     assert_eq!(code, Some(0), "{command:?}: {text}");
     text
 }
 
 /// Directory with the library, installed once.
-fn library() -> &'static Path {
+pub fn library() -> &'static Path {
     static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
     LIBRARY.get_or_init(|| {
         let prefix = Path::new(env!("CARGO_TARGET_TMPDIR")).join("dpi");
@@ -142,13 +142,13 @@ fn started(folder: &Path, program: &Path) -> Command {
 }
 
 /// The blocks of a page: language and text.
-fn blocks(page: &str) -> Vec<(&str, &str)> {
+pub fn blocks(page: &str) -> Vec<(&str, &str)> {
     let fenced = page.split("```").skip(1).step_by(2);
     fenced.filter_map(|block| block.split_once('\n')).collect()
 }
 
 /// Folder in which the commands of the page run.
-fn folder_of_the_page() -> TempDir {
+pub fn folder_of_the_page() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for name in ["bindings", "rtl_notes"] {
         symlink(Path::new(CHECKOUT).join(name), folder.path().join(name)).unwrap();
@@ -157,7 +157,7 @@ fn folder_of_the_page() -> TempDir {
 }
 
 /// Shell with the program as it was built.
-fn shell(folder: &Path, commands: &str) -> (Option<i32>, String) {
+pub fn shell(folder: &Path, commands: &str) -> (Option<i32>, String) {
     let program = "cargo() { \"$MOTION_RTL\" \"${@:4}\"; }";
     let verilator = format!("verilator() {{ command {} \"$@\"; }}", verilator());
     let script = format!("exec 2>&1\n{program}\n{verilator}\n{commands}");

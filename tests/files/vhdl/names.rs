@@ -27,7 +27,7 @@ fn declared(text: &str) -> Vec<&str> {
 }
 
 /// Names are legal and differ in more than the case of letters; returns their number.
-fn names(source: &SourceFile) -> usize {
+pub fn names(source: &SourceFile) -> usize {
     let mut seen = HashSet::new();
     for name in declared(&source.text) {
         let legal = name.starts_with(|first: char| first.is_ascii_alphabetic())
@@ -40,7 +40,7 @@ fn names(source: &SourceFile) -> usize {
 }
 
 /// Lines are short, in ASCII, and end in something visible.
-fn lines(source: &SourceFile) {
+pub fn lines(source: &SourceFile) {
     for line in source.text.lines() {
         assert!(line.len() <= LONGEST, "{}: {line}", source.name);
         assert_eq!(line, line.trim_end(), "{}", source.name);
