@@ -49,7 +49,7 @@ enum Command {
     /// Compares a waveform, such as a simulator's, with a golden one, tick by tick.
     #[command(after_help = help::COMPARE)]
     Compare(super::compare::Arguments),
-    /// Proves that a design in Verilog equals a circuit, or shows where it differs. Needs Yosys.
+    /// Proves that a design in Verilog or VHDL equals a circuit, or shows where it differs. Needs Yosys.
     #[command(after_help = help::EQUAL)]
     Equal(super::equal::Arguments),
     /// Shows how the engine runs a circuit: its blocks, what wakes them, how often each runs.
