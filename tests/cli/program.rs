@@ -348,6 +348,7 @@ fn every_example_runs() {
         // What needs a viewer, a file of the reader's, or minutes.
         if [
             "--open",
+            "my_",
             "golden.vcd",
             "inputs.csv",
             "clean",
