@@ -3,6 +3,7 @@
 
 #[cfg(unix)]
 use {
+    super::equal::stop,
     motion_rtl::files::abandon,
     signal_hook::consts::{SIGHUP, SIGINT, SIGTERM},
     signal_hook::iterator::Signals,
@@ -35,7 +36,10 @@ pub fn watch() {
             let signals = Signals::new(wanted);
             let _ = ready.send(());
             if let Some(signal) = signals.ok().and_then(|mut all| all.forever().next()) {
-                abandon(|| process::exit(ENDED + signal));
+                abandon(|| {
+                    stop();
+                    process::exit(ENDED + signal)
+                });
             }
         });
     if thread.is_ok() {

@@ -480,6 +480,18 @@ fn memories_and_parts_pair_by_name() {
 
 #[test]
 #[ignore = "needs Yosys"]
+fn a_verdict_names_what_it_leaves_out() {
+    let bench = Bench::with(&[("m.toml", "leave = [\"spent\"]\n")]);
+    let files = printed(&bench, "pulse_train");
+    let words = format!("equal pulse_train {files} --map m.toml");
+    let said = bench.proves(&words);
+    let left = "\nports of pulse_train that the map leaves out: spent\n";
+    assert!(said.contains(left), "{said}");
+    assert!(said.contains("from power-on, for all inputs"), "{said}");
+}
+
+#[test]
+#[ignore = "needs Yosys"]
 fn designs_that_prove_nothing_are_refused() {
     let stage = |body: &str| {
         format!(
@@ -510,6 +522,16 @@ fn designs_that_prove_nothing_are_refused() {
             !bench.0.path().join("waves").exists(),
             "{told}: files are left"
         );
+    }
+    let whole = stage("always @(posedge clk) step <= pulse;");
+    let bench = Bench::with(&[("mine.v", &whole)]);
+    for reset in ["clk", "step", "nothing"] {
+        let (code, said) = bench.run(&format!("equal sync_stage mine.v --reset {reset}"));
+        let told = format!(
+            "--reset: the design has no input {reset} of one bit beside its clock; allowed: none, or \
+             one of pulse, rst, unit_rst"
+        );
+        assert!(code == 2 && said.contains(&told), "{code}: {said}");
     }
     // An assumption of the design would hide the fault.
     let lie = stage("always @(posedge clk) step <= pulse; always @* assume (!unit_rst);");

@@ -228,7 +228,7 @@ impl<'a> Check<'a> {
                 let miter = self.miter(&paired, &[]);
                 self.scripts(written, &miter, script::INDUCTION[0]);
                 written.push("sby", names.sby(&read, &files, &miter.exposed()));
-                let verdict = text.proved(self.arguments.after_reset, 0, &miter.free());
+                let verdict = text.proved(self.start(), 0, &miter.free());
                 let parts = proved.proved.join(", ");
                 return Ok(Outcome::Proved(format!(
                     "{verdict}part by part: {parts}, and their connections\n"
@@ -247,8 +247,7 @@ impl<'a> Check<'a> {
         self.scripts(written, &miter, proof.induction);
         written.push("sby", names.sby(&read, &files, &miter.exposed()));
         if ran.is_proof() {
-            let after_reset = self.arguments.after_reset;
-            let mut verdict = text.proved(after_reset, invariants.len(), &miter.free());
+            let mut verdict = text.proved(self.start(), invariants.len(), &miter.free());
             if let Some(open) = parts {
                 verdict += &format!("proved as a whole, not part by part: {open}\n");
             }
@@ -376,18 +375,22 @@ impl<'a> Check<'a> {
             let allowed = "registers at the rising edge of the clock that --clock names";
             refused("DESIGN", problem, allowed)
         })?;
-        let inputs = || {
-            let inputs = design.inputs.keys().map(String::as_str);
-            pairs::listed(inputs)
-        };
         let reset = self.reset();
         if let Some((reset, _)) = reset
             && design.is_clocked
-            && !design.inputs.contains_key(reset)
         {
-            let problem = format!("the design has no input {reset}");
-            let allowed = format!("none, or one of {}", inputs());
-            return Err(refused("--reset", problem, &allowed));
+            let is_reset = |name: &str| name != clock && design.inputs.get(name) == Some(&1);
+            if !is_reset(reset) {
+                let problem =
+                    format!("the design has no input {reset} of one bit beside its clock");
+                let names = design.inputs.keys().map(String::as_str);
+                let names: Vec<&str> = names.filter(|name| is_reset(name)).collect();
+                let allowed = match names[..] {
+                    [] => "none".to_owned(),
+                    _ => format!("none, or one of {}", pairs::listed(names.into_iter())),
+                };
+                return Err(refused("--reset", problem, &allowed));
+            }
         }
         let sides = Sides {
             circuit: self.entry.name,
@@ -403,6 +406,15 @@ impl<'a> Check<'a> {
             golden,
             design,
         })
+    }
+
+    /// Returns the ticks for which a proof holds, in words.
+    fn start(&self) -> &'static str {
+        match (self.arguments.after_reset, self.reset()) {
+            (true, _) => "after a tick of reset",
+            (false, Some(_)) => "from power-on",
+            (false, None) => "from power-on, without resets",
+        }
     }
 
     /// Returns the reset of the design, and true if it is active low.

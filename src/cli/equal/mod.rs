@@ -27,6 +27,9 @@ use design::Design;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+#[cfg(unix)]
+pub use tool::stop;
+
 /// Arguments of `equal`.
 #[derive(Debug, Args)]
 pub struct Arguments {
@@ -95,13 +98,14 @@ pub fn equal(arguments: &Arguments) -> Result<(), Failure> {
     let design = Design::new(arguments, entry, &pairs)?;
     let changes = arguments.chosen.changes();
     let mut check = Check::new(arguments, &design, entry, &pairs, changes)?;
+    // Before the proof, so that a directory that cannot be written costs no time.
+    let mut files = Files::begin(&arguments.out, entry.name)?;
     let mut attempt = check.attempt(arguments.until())?;
     if matches!(attempt.outcome, Outcome::Open { late: true, .. })
         && let Some((narrow, other)) = narrow::narrower(&check, &pairs)?
     {
         (check, attempt) = (narrow, other);
     }
-    let mut files = Files::begin(&arguments.out, entry.name)?;
     attempt.written.into_files(&check, &mut files)?;
     match attempt.outcome {
         Outcome::Proved(text) => print(&(text + &report::files(&files.commit()?))),

@@ -115,13 +115,8 @@ impl Text<'_> {
         }
     }
 
-    /// Returns the verdict on a proof.
-    pub fn proved(&self, after_reset: bool, invariants: usize, free: &[&str]) -> String {
-        let start = if after_reset {
-            "after a tick of reset"
-        } else {
-            "from power-on"
-        };
+    /// Returns the verdict on a proof, which holds for the ticks that `start` names.
+    pub fn proved(&self, start: &str, invariants: usize, free: &[&str]) -> String {
         let mut text = format!(
             "proved equal {}: {} and {}, {start}, for all inputs\ncompared: {}\n",
             self.at(),
@@ -142,6 +137,15 @@ impl Text<'_> {
                 text,
                 "proved along: {values} that registers of {} do not have",
                 self.circuit
+            );
+        }
+        let left = &self.pairs.ports_left_out;
+        if !left.is_empty() {
+            let _ = writeln!(
+                text,
+                "ports of {} that the map leaves out: {}",
+                self.circuit,
+                self.paths(left)
             );
         }
         let without = &self.pairs.registers_without;

@@ -2,13 +2,23 @@
 
 use std::fs::{self, File};
 use std::io;
-use std::path::{self, Path};
-use std::process::{Command, Stdio};
+use std::path::{self, Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// Interval in which a run is looked at.
 const INTERVAL: Duration = Duration::from_millis(10);
+
+/// Programs that are running.
+static RUNNING: Mutex<Vec<Running>> = Mutex::new(Vec::new());
+
+/// A program, and the temporary directory in which it runs.
+struct Running {
+    child: Arc<Mutex<Child>>,
+    directory: PathBuf,
+}
 
 /// Output of a run.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -130,14 +140,27 @@ fn run(
         1 => program.to_owned(),
         _ => path::absolute(program)?,
     };
-    let mut child = Command::new(program)
+    let child = Command::new(program)
         .args(words)
         .current_dir(directory)
         .stdin(Stdio::null())
         .stdout(log)
         .stderr(errors)
         .spawn()?;
+    let child = Arc::new(Mutex::new(child));
+    lock(&RUNNING).push(Running {
+        child: child.clone(),
+        directory: directory.to_owned(),
+    });
+    let end = end(&child, until);
+    lock(&RUNNING).retain(|running| !Arc::ptr_eq(&running.child, &child));
+    end
+}
+
+/// Waits for the end of a program, or ends it at a point in time.
+fn end(child: &Mutex<Child>, until: Instant) -> io::Result<End> {
     loop {
+        let mut child = lock(child);
         match child.try_wait()? {
             Some(status) if status.success() => return Ok(End::Success),
             Some(_) => return Ok(End::Failure),
@@ -146,14 +169,56 @@ fn run(
                 child.wait()?;
                 return Ok(End::Late);
             }
-            None => sleep(INTERVAL),
+            None => {}
         }
+        drop(child);
+        sleep(INTERVAL);
     }
+}
+
+/// Ends all programs that are running, and removes their directories.
+pub fn stop() {
+    for running in lock(&RUNNING).drain(..) {
+        let mut child = lock(&running.child);
+        // It may have ended.
+        let _ = child.kill();
+        let _ = child.wait();
+        let _ = fs::remove_dir_all(&running.directory);
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A signal leaves neither a program nor its directory.
+    #[cfg(unix)]
+    #[test]
+    fn a_program_that_is_stopped_ends_and_its_directory_is_removed() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().to_owned();
+        let run = std::thread::spawn(move || {
+            let until = Instant::now() + Duration::from_secs(60);
+            ghdl(Path::new("sleep"), &path, &["60".to_owned()], until)
+        });
+        let begun = Instant::now();
+        while !lock(&RUNNING)
+            .iter()
+            .any(|one| one.directory == directory.path())
+        {
+            assert!(begun.elapsed() < Duration::from_secs(30));
+            sleep(INTERVAL);
+        }
+        stop();
+        // Its output is gone with the directory.
+        assert!(run.join().unwrap().is_err());
+        assert!(!directory.path().exists());
+        assert!(begun.elapsed() < Duration::from_secs(50));
+    }
 
     #[test]
     fn the_latch_of_a_log_is_named() {

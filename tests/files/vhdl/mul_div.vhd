@@ -1,4 +1,4 @@
--- mul_div: multiplies, adds and divides with remainder, one bit per tick.
+-- mul_div: multiplies, adds and divides with remainder, one, two or all bits per tick.
 -- Made by motion-rtl from the circuit of that name.
 
 library ieee;

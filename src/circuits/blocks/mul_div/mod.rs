@@ -184,7 +184,8 @@ signals! { for MulDiv as c;
 
 impl Circuit for MulDiv {
     const NAME: &'static str = "mul_div";
-    const ABOUT: &'static str = "multiplies, adds and divides with remainder, one bit per tick";
+    const ABOUT: &'static str =
+        "multiplies, adds and divides with remainder, one, two or all bits per tick";
     records!(In, Reg, Net);
 
     fn about(&self) -> &'static str {

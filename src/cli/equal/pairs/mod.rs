@@ -39,6 +39,8 @@ pub struct Pairs {
     pub held: Vec<Pair>,
     /// Ports of the circuit without partner.
     pub ports_without: Vec<usize>,
+    /// Ports of the circuit that the map leaves out.
+    pub ports_left_out: Vec<usize>,
     /// Registers of the circuit without partner.
     pub registers_without: Vec<usize>,
 }
@@ -83,7 +85,12 @@ impl Sides<'_> {
             let by_name = || self.by_name(signal, &scopes, &keys);
             let part = match mapped.get(&index) {
                 Some(part) => Some(part.clone()),
-                None if left.contains(&index) => continue,
+                None if left.contains(&index) => {
+                    if signal.port.is_some() {
+                        pairs.ports_left_out.push(index);
+                    }
+                    continue;
+                }
                 None => by_name(),
             };
             let pair = part.map(|part| Pair {
