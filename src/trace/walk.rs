@@ -64,7 +64,11 @@ impl Walk {
         self.changes.clear();
         let follows = self.last.is_some_and(|last| last + 1 == tick);
         match follows && view.engine.program().watches_all() {
-            true => self.look_at_changes(view),
+            true => {
+                self.look_at_changes(view);
+                // In the order in which all are looked at: the same run gives the same bytes.
+                self.changes.sort_unstable_by_key(|change| change.leaf);
+            }
             false => self.look_at_all(view),
         }
         self.last = Some(tick);

@@ -23,8 +23,8 @@ entity mul_div is
                                                  -- above and quotient bits below; at the end the
                                                  -- result.
         remainder    : out unsigned(5 downto 0); -- Remainder of the division.
-        done         : out std_logic;            -- High for one tick: quotient and remainder are
-                                                 -- valid from this tick until the next start.
+        done         : out std_logic;            -- High if a result is new: quotient and remainder
+                                                 -- are valid from this tick until the next start.
         busy         : out std_logic             -- A calculation is running; a start is ignored.
     );
 end entity mul_div;
