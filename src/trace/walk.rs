@@ -101,8 +101,8 @@ impl Walk {
         let slab = engine.slab();
         engine.changed(|place| {
             let watched = &layout.watched[place];
-            if watched.memory.is_some() {
-                return self.look_at_memory(watched, view);
+            if let Some(memory) = watched.memory {
+                return self.look_at_memory(memory as usize, watched, view);
             }
             let bits = slab[watched.slot as usize];
             for &leaf in layout.shown(watched) {
@@ -113,12 +113,9 @@ impl Walk {
 
     /// Looks at the words of a memory that was written.
     #[inline(never)]
-    fn look_at_memory(&mut self, watched: &Watched, view: View<'_>) {
+    fn look_at_memory(&mut self, memory: usize, watched: &Watched, view: View<'_>) {
         let engine = view.engine;
         let plan = engine.program().plan();
-        let Some(memory) = watched.memory.map(|memory| memory as usize) else {
-            return;
-        };
         let (mark, word) = engine.written(memory);
         let writes = mark.wrapping_sub(std::mem::replace(&mut self.marks[memory], mark));
         let shifts = plan.memories[memory].head.is_some();
@@ -134,7 +131,7 @@ impl Walk {
         }
     }
 
-    /// Compares the bits of a leaf of the engine with those of the tick before.
+    /// Adds a leaf of the engine to the changes if its bits differ from those of the tick before.
     #[inline(always)]
     fn look_at(&mut self, leaf: u32, bits: u64, view: View<'_>) {
         if let Some(leaf) = view.shown(leaf) {

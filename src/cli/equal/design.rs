@@ -193,6 +193,11 @@ impl Design {
         Ok(design)
     }
 
+    /// Returns the paths of the files as arguments of a program.
+    pub fn paths(&self) -> impl Iterator<Item = String> {
+        self.files.iter().map(|file| file.display().to_string())
+    }
+
     /// Returns the values of the parameters for the full circuit, some keys changed.
     pub fn parameters(
         &self,

@@ -8,7 +8,7 @@ use motion_rtl::sim::{PortDirection, SignalInfo};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// What the miter is made of.
+/// Circuit and design side by side, with the same inputs and with assertions that pairs are equal.
 #[derive(Debug, Clone, Copy)]
 pub struct Miter<'a> {
     pub circuit: &'a str,
@@ -54,8 +54,8 @@ impl<'a> Wires<'a> {
     }
 }
 
-/// What drives the input ports of the design, and the ports of the miter for its free bits with
-/// their widths.
+/// Each input port of the design with the expression that drives it; and the extra ports of the
+/// miter, for bits that have any value, with their widths.
 type Driven<'a> = (Vec<(&'a str, String)>, Vec<(String, usize)>);
 
 /// Returns the declaration of an input port.

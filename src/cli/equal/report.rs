@@ -9,7 +9,7 @@ use motion_rtl::compare::Report;
 use motion_rtl::sim::{PortDirection, SignalInfo};
 use std::fmt::Write as _;
 
-/// What verdicts name.
+/// Names and settings that appear in verdicts.
 #[derive(Debug, Clone)]
 pub struct Text<'a> {
     pub circuit: &'a str,

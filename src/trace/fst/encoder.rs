@@ -189,8 +189,8 @@ impl<W: Write + Seek + Send + 'static> Sink for Encoder<W> {
     type Out = W;
 
     fn full(&self) -> (usize, usize) {
-        // The amount packed together determines the file size. Every section begins with all
-        // values, words of memories included, and should have more changes than that.
+        // The more is packed together, the smaller is the file. A section also begins with the
+        // values of all signals, so it has several changes per signal.
         let changes = (128 * 1024).max(8 * self.frame.places.len());
         (changes, changes / 4)
     }

@@ -1,8 +1,8 @@
 //! Dumps in the FST format of GTKWave's `fstapi.c`.
 //!
-//! The crates `fst-writer` and `wavefst` take every value as text and look up each signal again, and
-//! so take six times as long for the same run. The first has no strings of variable length and no
-//! tables of states; the second needs a C compiler.
+//! The crates `fst-writer` and `wavefst` take every value as text, which costs more time than all of
+//! this encoder. `fst-writer` has no strings of variable length and no tables of states; `wavefst`
+//! needs a C compiler.
 
 mod encoder;
 mod header;
@@ -24,9 +24,8 @@ pub(super) use encoder::Encoder;
 ///
 /// Changes are collected in sections; a thread compresses and writes them. Three sections of about
 /// 3 MB, or of 128 bytes per signal if that is more, are kept in memory, however long the run is.
-/// Each word of a memory is a signal. Call [`finish`](Fst::finish) after the run;
-/// without it the file cannot be read. The file contains no date: the same run gives the same
-/// bytes.
+/// Each word of a memory is a signal. Call [`finish`](Fst::finish) after the run; without it the
+/// file cannot be read. The file contains no date: the same run gives the same bytes.
 #[derive(Debug)]
 #[must_use]
 pub struct Fst<W> {

@@ -1,4 +1,4 @@
-//! What a map says of a circuit's signals.
+//! Partners that a map names, and signals that it leaves out.
 
 use super::{Part, Sides, bits, is_end, listed};
 use motion_rtl::compare::{Entry, Partner, brackets};

@@ -1,4 +1,5 @@
-//! What connects the parts: their outputs are its inputs, and their inputs its outputs.
+//! Proof of the connections between parts. Output ports of the parts are inputs of this proof, and
+//! input ports of the parts are compared.
 
 use super::leaf::{Leaf, renamed};
 use super::{CONNECTIONS, Partners, Texts, netlists};

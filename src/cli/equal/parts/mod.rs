@@ -31,7 +31,7 @@ pub type Texts = Vec<(String, String)>;
 pub struct Parts {
     /// Names of the parts that are proved.
     pub proved: Vec<String>,
-    /// What is not proved, in words.
+    /// Reason why the proof part by part is incomplete, in words; `None` if it is complete.
     pub open: Option<String>,
     /// Nets of the circuit that the connections can drive in another way, with their partners.
     pub suspects: Vec<(String, Part)>,

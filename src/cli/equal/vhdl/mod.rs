@@ -30,13 +30,7 @@ pub fn translated(check: &Check<'_>, work: &Work, until: Instant) -> Result<Stri
         .iter()
         .map(|(name, value)| format!("-g{name}={value}"));
     words.extend(generics);
-    words.extend(
-        check
-            .design
-            .files
-            .iter()
-            .map(|file| file.display().to_string()),
-    );
+    words.extend(check.design.paths());
     words.extend(["-e".to_owned(), check.design.top.clone()]);
     let ran = work.ghdl(check, &words, until).map_err(|error| {
         let program = check.arguments.ghdl.display();
@@ -135,13 +129,7 @@ pub fn hold(
     work.write(&files[0], &stimulus)?;
     work.write("bench.vhd", &text)?;
     let mut words = vec!["-c".to_owned(), STANDARD.to_owned()];
-    words.extend(
-        check
-            .design
-            .files
-            .iter()
-            .map(|file| file.display().to_string()),
-    );
+    words.extend(check.design.paths());
     words.extend(["bench.vhd", "-r", bench::NAME].map(str::to_owned));
     let ran = work.ghdl(check, &words, until)?;
     if ran.end != End::Success {
