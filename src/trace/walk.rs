@@ -29,6 +29,8 @@ pub(super) struct Walk {
     before: Vec<u64>,
     /// Write count of each memory in the tick before.
     marks: Vec<u64>,
+    /// Leaves that differ from the tick before.
+    touched: Touched,
     /// Selected leaves, unless all are.
     selected: Option<Vec<bool>>,
     /// Changes of the tick.
@@ -43,6 +45,7 @@ impl Walk {
             last: None,
             before: vec![UNKNOWN; leaves],
             marks: Vec::new(),
+            touched: Touched::new(leaves),
             selected: layout
                 .selected
                 .contains(&false)
@@ -64,11 +67,7 @@ impl Walk {
         self.changes.clear();
         let follows = self.last.is_some_and(|last| last + 1 == tick);
         match follows && view.engine.program().watches_all() {
-            true => {
-                self.look_at_changes(view);
-                // In the order in which all are looked at: the same run gives the same bytes.
-                self.changes.sort_unstable_by_key(|change| change.leaf);
-            }
+            true => self.look_at_changes(view),
             false => self.look_at_all(view),
         }
         self.last = Some(tick);
@@ -109,6 +108,14 @@ impl Walk {
                 self.look_at(leaf, bits, view);
             }
         });
+        // In the order in which all are looked at: the same run gives the same bytes.
+        let (before, changes) = (&self.before, &mut self.changes);
+        self.touched.take(|leaf| {
+            changes.push(Change {
+                leaf: leaf as u32,
+                bits: before[leaf],
+            });
+        });
     }
 
     /// Looks at the words of a memory that was written.
@@ -131,14 +138,14 @@ impl Walk {
         }
     }
 
-    /// Adds a leaf of the engine to the changes if its bits differ from those of the tick before.
+    /// Marks a leaf of the engine as changed if its bits differ from those of the tick before.
     #[inline(always)]
     fn look_at(&mut self, leaf: u32, bits: u64, view: View<'_>) {
         if let Some(leaf) = view.shown(leaf) {
             let before = &mut self.before[leaf as usize];
             if *before != bits {
                 *before = bits;
-                self.changes.push(Change { leaf, bits });
+                self.touched.touch(leaf);
             }
         }
     }
@@ -153,6 +160,56 @@ impl Walk {
         let end = |last: u64| self.clock.rise(last + 1).ok_or_else(too_late);
         self.last.map(end).transpose()
     }
+}
+
+/// Set of leaves. The words of memories are leaves too, so there can be many, of which few are in
+/// the set.
+#[derive(Debug)]
+struct Touched {
+    /// One bit per leaf.
+    leaves: Vec<u64>,
+    /// One bit per word of `leaves` that is not 0.
+    words: Vec<u64>,
+}
+
+impl Touched {
+    /// Creates an empty set for `leaves` leaves.
+    fn new(leaves: usize) -> Self {
+        let words = leaves.div_ceil(64);
+        Touched {
+            leaves: vec![0; words],
+            words: vec![0; words.div_ceil(64)],
+        }
+    }
+
+    #[inline]
+    fn touch(&mut self, leaf: u32) {
+        let word = leaf as usize / 64;
+        self.leaves[word] |= 1 << (leaf % 64);
+        self.words[word / 64] |= 1 << (word % 64);
+    }
+
+    /// Empties the set, in the order of the walk.
+    #[inline]
+    fn take(&mut self, mut see: impl FnMut(usize)) {
+        for (place, words) in self.words.iter_mut().enumerate() {
+            for word in ones(std::mem::take(words)) {
+                let word = place * 64 + word;
+                for leaf in ones(std::mem::take(&mut self.leaves[word])) {
+                    see(word * 64 + leaf);
+                }
+            }
+        }
+    }
+}
+
+/// Returns the positions of the set bits, from the lowest on.
+fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let place = bits.trailing_zeros();
+        bits &= bits.wrapping_sub(1);
+        (place < 64).then_some(place as usize)
+    })
 }
 
 fn too_late() -> io::Error {

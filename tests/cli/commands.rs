@@ -1,8 +1,9 @@
 //! Commands that the documents show: each is run, and each filter of `cargo test` selects a test.
 //!
 //! `.ci/run` itself runs the README's first two commands, `mutate` and the benches;
-//! `cosim::golden_model` runs those of `golden_model.md` and compares what they print, `cosim::dpi`
-//! those of the page on SystemVerilog, and tests in `bindings` those of the pages on other languages.
+//! `cosim::golden_model` runs those of `golden_model.md` and compares what they print,
+//! `cosim::equal` those of `equal.md`, `cosim::dpi` those of the page on SystemVerilog, and tests in
+//! `bindings` those of the pages on other languages.
 
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -53,8 +54,12 @@ const BROUGHT: [(&str, &str); 2] = [
     ("tb.vcd", "cp waves/bracket.vcd tb.vcd"),
 ];
 
-/// Documents whose commands are not run here, and a folder of such documents.
-const RUN_ELSEWHERE: [&str; 2] = ["rtl_notes/golden_model.md", "rtl_notes/bindings/"];
+/// Documents whose commands are run elsewhere, and a folder of such documents.
+const RUN_ELSEWHERE: [&str; 3] = [
+    "rtl_notes/golden_model.md",
+    "rtl_notes/equal.md",
+    "rtl_notes/bindings/",
+];
 
 /// Circuits that the walk-through has the reader write.
 const CIRCUITS_OF_THE_READER: [&str; 2] = ["debouncer", "limit_switch"];
