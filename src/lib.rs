@@ -159,7 +159,7 @@
 //!
 //! let directory = tempfile::tempdir()?;
 //! let at = |name: &str| directory.path().join(name);
-//! let run = Drive { seed: 1, ticks: 1000, resets: true, clock: Clock::default() };
+//! let run = Drive { seed: 1, ticks: 1000, resets: true, bounded: false, clock: Clock::default() };
 //! let waves = File::create(at("golden.vcd"))?;
 //! let stimulus = File::create(at("unit_law.stimulus"))?;
 //! let expected = File::create(at("unit_law.expected"))?;

@@ -15,6 +15,10 @@ pub struct Drive {
     pub ticks: u64,
     /// True if some ticks have a synchronous reset.
     pub resets: bool,
+    /// True if the words of each input port stay within a random number of binary digits in the
+    /// whole run, and signed words have both signs. Counters then end early: without bounds, one
+    /// long period keeps a circuit waiting for the rest of the run.
+    pub bounded: bool,
     /// Clock of the waves.
     pub clock: Clock,
 }
@@ -88,7 +92,12 @@ impl Drive {
         stimulus: &mut dyn Write,
         expected: &mut dyn Write,
     ) -> Result<Driven, RunError> {
-        let mut random = Stimulus::new(self.seed);
+        let leaves = &model.declarations().leaves;
+        let ports = leaves.iter().take(model.flat().inputs.len());
+        let mut random = match self.bounded {
+            true => Stimulus::bounded(self.seed, ports.map(|leaf| leaf.shape)),
+            false => Stimulus::new(self.seed),
+        };
         let mut records = Records::of(model.declarations(), model.flat().inputs.len(), self.seed);
         let mut outputs = Outputs {
             clock: self.clock,

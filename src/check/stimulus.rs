@@ -1,6 +1,7 @@
 use super::Random;
 use crate::engine::Engine;
 use crate::hdl::{Circuit, Value, pack::inputs};
+use crate::netlist::{self, Shape};
 
 /// Greatest number of binary digits of the ticks in a stretch, in which a port keeps one way of
 /// changing. Longer stretches move single counters further, but give fewer combinations of ports.
@@ -55,6 +56,22 @@ impl Stimulus {
             longest: SHORT_GAP,
             resets,
         }
+    }
+
+    /// Creates the stimulus of a seed for input ports of these shapes. The words of a port stay
+    /// within a number of binary digits that is random and at most its width; signed words have
+    /// both signs.
+    pub(super) fn bounded(seed: u64, ports: impl Iterator<Item = Shape>) -> Self {
+        let mut stimulus = Self::new(seed);
+        let Stimulus {
+            random, courses, ..
+        } = &mut stimulus;
+        courses.extend(ports.map(|shape| Course {
+            digits: Some(1 + random.word() as usize % shape.width),
+            is_signed: shape.kind == netlist::Kind::Signed,
+            ..Course::default()
+        }));
+        stimulus
     }
 
     /// Returns the inputs of the next tick. Use one stimulus for one circuit.
@@ -127,6 +144,10 @@ struct Course {
     /// Logarithm of the average number of ticks between changes.
     pace: u64,
     value: u64,
+    /// Greatest number of binary digits of a word; the port's width by default.
+    digits: Option<usize>,
+    /// True if words have both signs.
+    is_signed: bool,
 }
 
 /// Kind of values in a stretch.
@@ -156,10 +177,18 @@ impl Course {
         let due = random.word() >> (64 - PACE) < 1 << (PACE - self.pace);
         match self.kind {
             Kind::Pulses(level) => self.value = level ^ u64::from(due),
-            kind if due => self.value = kind.value(random, width),
+            kind if due => self.value = self.word(random, kind, width),
             _ => {}
         }
         self.value
+    }
+
+    fn word(&self, random: &mut Random, kind: Kind, width: usize) -> u64 {
+        let value = kind.value(random, self.digits.unwrap_or(width));
+        match self.is_signed && random.word() & 1 == 1 {
+            true => value.wrapping_neg() & u64::MAX >> (64 - width),
+            false => value,
+        }
     }
 
     /// Begins a new stretch. The value stays until it changes.
@@ -207,6 +236,7 @@ pub(super) fn magnitude(random: &mut Random, digits: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeSet;
 
     const TICKS: usize = 100_000;
 
@@ -256,6 +286,44 @@ mod tests {
         for end in [-2048i64, 2047, -1, 0] {
             assert!(words.contains(&(end as u64 & 0xfff)), "{end}");
         }
+    }
+
+    fn bounded(seed: u64, kind: netlist::Kind) -> Vec<u64> {
+        let shape = Shape { kind, width: 24 };
+        let mut stimulus = Stimulus::bounded(seed, [shape].into_iter());
+        let words = (0..1000).map(|_| stimulus.ports().port(shape.width));
+        words.collect()
+    }
+
+    #[test]
+    fn bounds_are_of_every_magnitude() {
+        let greatest = |seed| {
+            let words = bounded(seed, netlist::Kind::Unsigned);
+            words.into_iter().max().unwrap_or(0)
+        };
+        let digits: BTreeSet<_> = (0..200)
+            .filter_map(|seed| greatest(seed).checked_ilog2())
+            .collect();
+        assert_eq!(digits, (0..24).collect());
+        // Each run has a bound of its own.
+        let short = (0..200).filter(|seed| greatest(*seed) < 1 << 8).count();
+        assert!((50..150).contains(&short), "{short}");
+    }
+
+    #[test]
+    fn bounded_words_have_both_signs_if_they_are_signed() {
+        let count = |words: &[u64]| words.iter().filter(|word| **word >> 23 == 1).count();
+        let runs = (0..40).map(|seed| bounded(seed, netlist::Kind::Signed));
+        let runs: Vec<_> = runs
+            .filter(|words| (100..900).contains(&count(words)))
+            .collect();
+        assert!(runs.len() > 20, "{}", runs.len());
+        let is_short = |word: &u64| (*word).min((1 << 24) - word) < 1 << 8;
+        let short = runs.iter().filter(|words| words.iter().all(is_short));
+        assert!(short.count() > 5);
+        let unsigned = (0..40).flat_map(|seed| bounded(seed, netlist::Kind::Unsigned));
+        let short: Vec<u64> = unsigned.filter(|word| *word < 1 << 23).collect();
+        assert!(short.len() > 35_000);
     }
 
     #[test]

@@ -122,6 +122,7 @@ pub fn write(
                     seed: arguments.seed,
                     ticks: ticks.unwrap_or_default(),
                     resets: true,
+                    bounded: false,
                     clock,
                 };
                 let driven = circuit.drive(&drive, outputs.0, outputs.1, outputs.2)?;

@@ -5,6 +5,7 @@ mod still;
 
 use motion_rtl::check::{Drive, Driven, drive};
 use motion_rtl::circuits::arc_generator::ArcGenerator;
+use motion_rtl::circuits::blocks::EnableCounter;
 use motion_rtl::circuits::linear_interpolator::LinearInterpolator;
 use motion_rtl::circuits::pulse_interpolator::{
     Axis, Group, PatternMemory, UnitLaw, Variant, Widths,
@@ -24,6 +25,7 @@ fn run(seed: u64, ticks: u64, resets: bool) -> Drive {
         seed,
         ticks,
         resets,
+        bounded: false,
         clock: Clock::default(),
     }
 }
@@ -134,6 +136,23 @@ fn without_resets_it_is_an_ordinary_run_with_its_observers() {
         .expect("waves");
     assert!(vcd.finish().expect("waves") == waves);
     assert_eq!(file.finish().expect("a file"), stimulus.as_bytes());
+}
+
+/// A run of long periods waits for the whole run.
+#[test]
+fn bounded_words_end_counters_early() {
+    let circuit = EnableCounter { width: 24 };
+    let is_short = |seed: u64, bounded: bool| {
+        let drive = Drive {
+            bounded,
+            ..run(seed, 1000, false)
+        };
+        let (_, stimulus, _) = files(&circuit, &drive);
+        let mut inputs = stimulus.lines().map(|line| parse(&circuit, line).0);
+        inputs.all(|i| i.period < 1 << 12)
+    };
+    let short = |bounded| (0..20).filter(|&seed| is_short(seed, bounded)).count();
+    assert!(short(true) > 4 * short(false));
 }
 
 /// A line left out would shift all that follow.

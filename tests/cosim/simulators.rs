@@ -34,6 +34,7 @@ pub fn drive(circuit: &dyn AnyModel, path: &Path, seed: u64, ticks: u64) -> u64 
         seed,
         ticks,
         resets: true,
+        bounded: false,
         clock: Clock::default(),
     };
     let create = |extension: &str| File::create(path.join(format!("{name}.{extension}"))).unwrap();

@@ -9,6 +9,7 @@ use motion_rtl::check::Drive;
 use motion_rtl::sim::SignalInfo;
 use motion_rtl::trace::Clock;
 use std::cmp::Reverse;
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io;
 use std::ops::RangeInclusive;
@@ -41,6 +42,7 @@ pub fn run(
         seed: 1,
         ticks: ticks(paired),
         resets: check.design.reset.is_some(),
+        bounded: false,
         clock: Clock::default(),
     };
     of(check, work, paired, drive, until.min(share(check)))
@@ -90,8 +92,8 @@ fn of(
 }
 
 /// Runs without resets, in which counts go further; returns the run to the first difference, at
-/// paired signals or else at `ports`, with its pairs. Of many seeds, those count that move most
-/// signals of the model.
+/// paired signals or else at `ports`, with its pairs. Of many seeds, those are held against the
+/// design that move most signals of the model, and give its output ports most different values.
 pub fn without_resets(
     check: &Check<'_>,
     work: &Work,
@@ -106,19 +108,27 @@ pub fn without_resets(
             seed,
             ticks: ticks(paired),
             resets: false,
+            // Long periods let a circuit wait for most of a run, but some faults need wide words.
+            bounded: seed % 2 == 0,
             clock: Clock::default(),
         };
-        let [mut waves, mut stimulus, mut expected] = [io::sink(), io::sink(), io::sink()];
+        let [mut waves, mut stimulus] = [io::sink(), io::sink()];
+        let mut expected = Vec::new();
         let elaborated = check.model.elaborated();
         let driven = drive.run(elaborated, &mut waves, &mut stimulus, &mut expected)?;
-        let coverage = driven.coverage;
-        ranked.push((coverage.still().count(), Reverse(coverage.bits()), drive));
+        let outputs: BTreeSet<&[u8]> = expected.split(|byte| *byte == b'\n').collect();
+        let rank = (
+            driven.coverage.still().count(),
+            Reverse(outputs.len()),
+            Reverse(driven.coverage.bits()),
+        );
+        ranked.push((rank, drive));
         if Instant::now() > half {
             break;
         }
     }
-    ranked.sort_by_key(|(still, bits, _)| (*still, *bits));
-    for (_, _, drive) in ranked.into_iter().take(BEST) {
+    ranked.sort_by_key(|(rank, _)| *rank);
+    for (_, drive) in ranked.into_iter().take(BEST) {
         let mut run = of(check, work, paired, drive, until)?;
         let found = match difference(check, work, paired, &run)? {
             Some(ticks) => Some((paired.pairs.clone(), ticks)),

@@ -185,6 +185,7 @@ fn ports_have_the_values_of_their_drivers() {
             seed: 1,
             ticks: 200 * u64::from(!driven.is_empty()),
             resets: false,
+            bounded: false,
             clock: Clock::default(),
         };
         let mut waves = Vec::new();

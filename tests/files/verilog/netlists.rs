@@ -52,6 +52,7 @@ fn hold(circuit: &dyn AnyModel, seed: u64) -> u64 {
         seed,
         ticks: TICKS,
         resets: true,
+        bounded: false,
         clock: Clock::default(),
     };
     let driven = circuit.drive(&drive, &mut waves, &mut stimulus, &mut outputs);
