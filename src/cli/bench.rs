@@ -194,6 +194,13 @@ fn played<'a>(
     if let Some(file) = waves.path() {
         let model = circuit.model().map_err(RunError::from)?;
         let taken = waves.read(file, names, &model)?;
+        if let Some(reset) = &taken.possible_reset {
+            warn(&format!(
+                "{}: {reset} has the name of a reset, but the circuit gets no reset; allowed: --reset \
+                 NAME, --reset '!NAME' if it is active low, or --reset none",
+                file.display()
+            ));
+        }
         let golden = arguments.out.join(format!("{}.vcd", circuit.name()));
         return Ok(Some(Played {
             file,

@@ -15,6 +15,7 @@ use crate::input::stimulus::PortInputs;
 use crate::netlist::Role;
 use crate::sim::{Elaborated, LeafView};
 use crate::trace::{Clock, Dump, Layout, Options, VcdFile};
+use std::collections::HashSet;
 use std::ops::Range;
 use std::path::Path;
 
@@ -36,6 +37,8 @@ pub struct DumpInputs {
     pub clock: String,
     /// Reset in the file, `!` before an active-low one; `None` if there is none.
     pub reset: Option<String>,
+    /// Signal beside the inputs that has the name of a reset, if none was named and none is taken.
+    pub possible_reset: Option<String>,
     /// Scope of the file that corresponds to the circuit, if one was needed.
     pub scope: Option<String>,
 }
@@ -138,7 +141,12 @@ fn of_waves(
         let allowed = "a map that pairs each input port, or ignores it: it is low then";
         return Err(Fault::new(&other.file, 0, "names", problem, allowed));
     }
-    let reset = found(&other, reset, pairing.scope.as_deref())?;
+    let named = reset;
+    let reset = found(&other, named, pairing.scope.as_deref())?;
+    let possible_reset = match (named, &reset) {
+        (Reset::Found, None) => possible(&other, &pairs, pairing.scope.as_deref()),
+        _ => None,
+    };
     // The reset comes last.
     pairs.push(reset.clone());
     let partners = pairs.iter().flatten();
@@ -165,6 +173,7 @@ fn of_waves(
         inputs: played,
         clock: run.wave.variables[clock].path.clone(),
         reset: reset.map(|pair| pair.name),
+        possible_reset,
         scope: pairing.scope,
     })
 }
@@ -209,6 +218,44 @@ fn found(other: &Wave, reset: &Reset, scope: Option<&str>) -> Result<Option<Pair
             ))
         }
     }
+}
+
+/// Returns the path of the first signal of 1 bit with the name of a reset in a scope of an input or
+/// of the circuit, without the inputs themselves.
+fn possible(other: &Wave, inputs: &[Option<Pair>], scope: Option<&str>) -> Option<String> {
+    let inputs = || inputs.iter().flatten();
+    let above = |path: &str| {
+        path.rsplit_once('.')
+            .map_or("", |(scope, _)| scope)
+            .to_owned()
+    };
+    let scopes: HashSet<String> = inputs()
+        .map(|pair| above(&other.variables[pair.other].path))
+        .chain(scope.map(str::to_owned))
+        .collect();
+    let taken: HashSet<_> = inputs()
+        .map(|pair| other.variables[pair.other].signal)
+        .collect();
+    let mut variables = other.variables.iter();
+    let found = variables.find(|variable| {
+        let name = variable.path.rsplit('.').next().unwrap_or_default();
+        variable.width == 1
+            && is_reset(name)
+            && !taken.contains(&variable.signal)
+            && scopes.contains(&above(&variable.path))
+    });
+    found.map(|variable| variable.path.clone())
+}
+
+/// True for names such as `rst`, `rst_n`, `i_reset`, `aresetn`.
+fn is_reset(name: &str) -> bool {
+    let letters = name.to_ascii_lowercase().replace('_', "");
+    let around = ["reset", "rst"]
+        .iter()
+        .find_map(|reset| letters.split_once(reset));
+    // Input, asynchronous, synchronous, active low.
+    let is_mark = |mark: char| "iasnb".contains(mark);
+    around.is_some_and(|(before, behind)| before.chars().chain(behind.chars()).all(is_mark))
 }
 
 /// Returns the ticks of the file that are taken.
@@ -287,4 +334,21 @@ fn are_known<'a>(
     };
     let problem = format!("is x or z in tick {tick}");
     Err(Fault::new(&run.wave.file, 0, *path, problem, allowed))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_reset;
+
+    #[test]
+    fn resets_are_known_by_their_names() {
+        for name in [
+            "rst", "RST_N", "reset", "reset_n", "aresetn", "i_rst", "nreset", "rst_ni",
+        ] {
+            assert!(is_reset(name), "{name}");
+        }
+        for name in ["unit_rst", "burst", "first", "preset", "reset_count", "n"] {
+            assert!(!is_reset(name), "{name}");
+        }
+    }
 }

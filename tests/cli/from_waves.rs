@@ -126,6 +126,31 @@ fn names_of_the_circuit_need_no_map() {
 }
 
 #[test]
+fn a_reset_that_is_not_named_is_told() {
+    let bench = bench();
+    let warning = "warning: design.vcd: tb.dut.rst_n has the name of a reset, but the circuit gets no \
+                   reset; allowed: --reset NAME, --reset '!NAME' if it is active low, or --reset none\n";
+    let done = bench.run(&command(&["--skip", "1"]));
+    assert_eq!((done.code, &*done.stderr), (0, warning));
+    assert!(done.stdout.contains(", no reset\n"), "{}", done.stdout);
+    for named in ["none", "!dut.rst_n"] {
+        let done = bench.run(&command(&["--skip", "1", "--reset", named]));
+        assert_eq!((done.code, &*done.stderr), (0, ""));
+    }
+    // In a scope of no input.
+    let outside = DESIGN.replace(
+        "$scope module dut $end\n",
+        "$var wire 1 r rst_n $end\n$scope module dut $end\n",
+    );
+    bench.write(
+        "design.vcd",
+        outside.replacen("$var wire 1 r rst_n $end\n$var wire 8", "$var wire 8", 1),
+    );
+    let done = bench.run(&command(&["--skip", "1"]));
+    assert_eq!((done.code, &*done.stderr), (0, ""));
+}
+
+#[test]
 fn a_port_that_the_map_ignores_stays_low() {
     let bench = bench();
     bench.write("names.toml", "ignore = [\"enable_counter.period\"]\n[signals]\n\"enable_counter.enable\" = \"dut.lap\"\n");
