@@ -15,6 +15,7 @@ use crate::cli::bench::unprinted;
 use crate::cli::chosen;
 use crate::cli::export::{Export, Printed};
 use crate::cli::files::Files;
+use crate::cli::{progress, warn};
 use motion_rtl::Model;
 use motion_rtl::printed::SourceFile;
 use motion_rtl::registry::{AnyModel, Base, Entry, Pair};
@@ -37,7 +38,7 @@ pub struct Check<'a> {
     /// Greatest width of the circuit, if the check has narrowed it.
     pub width: Option<u64>,
     /// Changed keys of the circuit, as on the command line.
-    changes: String,
+    pub changes: String,
     /// Values of the design's parameters or generics.
     pub parameters: Vec<(String, String)>,
     verilog: Verilog,
@@ -145,6 +146,10 @@ impl<'a> Check<'a> {
                 .width
                 .map(|width| (width, self.arguments.limit_seconds)),
             top: &self.design.top,
+            template: self
+                .arguments
+                .out
+                .join(format!("{}.template.toml", self.entry.name)),
             signals: &self.signals,
             pairs: &paired.pairs,
         }
@@ -195,6 +200,7 @@ impl<'a> Check<'a> {
             written.push(extension, script);
         }
         let mut sides = [String::new(), String::new()];
+        progress::tell("Yosys reads the circuit and the design");
         for (text, side) in sides.iter_mut().zip(script::SIDES) {
             let ran = match work.run(self, &names.side(side, "ys"), until) {
                 Ok(ran) => ran,
@@ -209,12 +215,14 @@ impl<'a> Check<'a> {
             written.push("template.toml", template::template(self, &paired));
             return Ok(Outcome::open(Failure::Undecided(text.unpaired())));
         }
+        progress::tell("random inputs");
         let mut run = random::run(self, &work, &paired, until)?;
         if self.design.is_vhdl {
             vhdl::hold(self, &work, &paired, &run, until)?;
         }
         if let Some(ticks) = random::difference(self, &work, &paired, &run)? {
             run.cut(ticks);
+            progress::tell(&format!("a difference after {ticks} ticks; an earlier one"));
             let earlier = random::earlier(self, &work, &paired, &run, until)?;
             self.scripts(written, &self.miter(&paired, &[]), script::INDUCTION[0]);
             return Ok(Outcome::Differs(Box::new(paired), earlier.unwrap_or(run)));
@@ -222,6 +230,7 @@ impl<'a> Check<'a> {
         let files = [modules, memories].concat();
         let (mut parts, mut suspects) = (None, Vec::new());
         if self.arguments.parts {
+            progress::tell("proof of the connections and of each part");
             let proved = parts::prove(self, &work, &paired, &read, self.arguments.until())?;
             written.0.extend(proved.texts);
             let Some(open) = proved.open else {
@@ -241,6 +250,7 @@ impl<'a> Check<'a> {
             false => until,
         };
         let task = self.task(&paired);
+        progress::tell("proof of the whole");
         let proof = task.prove(&work, until)?;
         let (invariants, ran) = (&proof.invariants, &proof.ran);
         let miter = task.miter(invariants);
@@ -262,6 +272,12 @@ impl<'a> Check<'a> {
             run.cut(ticks);
             return Ok(Outcome::Differs(Box::new(Paired { pairs, ..paired }), run));
         }
+        if !ran.is_difference() && self.width.is_none() {
+            if !paired.pairs.registers_without.is_empty() {
+                warn(&format!("no proof so far; {}", text.registers_without()));
+            }
+            progress::tell("no proof so far; random inputs without resets");
+        }
         if !ran.is_difference()
             && let Some((pairs, trace)) = random::without_resets(self, &work, &paired, &suspects)?
         {
@@ -273,6 +289,7 @@ impl<'a> Check<'a> {
         if ran.is_open() {
             // A narrower circuit is only proved.
             if self.width.is_none() {
+                progress::tell("no difference so far; the solver searches for one");
                 let script = format!("{stem}.search.ys");
                 work.write(&script, &names.search(&miter.exposed(), None))?;
                 search = work.run(self, &script, until)?;

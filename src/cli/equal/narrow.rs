@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::check::{Attempt, Check, Outcome};
+use crate::cli::progress;
 use motion_rtl::registry::Pair;
 use std::time::Instant;
 
@@ -38,6 +39,7 @@ pub fn narrower<'a>(
             continue;
         };
         check.width = Some(width);
+        progress::tell(&format!("width {width}:{}", check.changes));
         match check.attempt(until) {
             Ok(attempt) => match attempt.outcome {
                 Outcome::Proved(_) => best = Some((check, attempt)),

@@ -50,7 +50,7 @@ pub fn differs(
     };
     let (golden, design) = (path("golden.vcd"), path("design.vcd"));
     let report = compared(check, paired, [&golden, &design], trace)?;
-    let Some(text) = check.text(paired).differs(&report, &paired.design) else {
+    let Some(text) = check.text(paired).differs(report, &paired.design) else {
         return Err(Failure::Undecided(
             "Yosys finds a difference that the model does not have; the circuit's Verilog and its \
              model disagree"

@@ -3,11 +3,12 @@
 use super::super::files::Named;
 use super::check::Paired;
 use super::netlist::Netlist;
-use super::pairs::{Pair, Pairs, listed};
+use super::pairs::{Pair, Pairs, bits, listed};
 use super::trace::Trace;
-use motion_rtl::compare::Report;
+use motion_rtl::compare::{Mismatch, Report};
 use motion_rtl::sim::{PortDirection, SignalInfo};
 use std::fmt::Write as _;
+use std::path::PathBuf;
 
 /// Names and settings that appear in verdicts.
 #[derive(Debug, Clone)]
@@ -19,6 +20,8 @@ pub struct Text<'a> {
     pub narrow: Option<(u64, u64)>,
     /// Module of the design.
     pub top: &'a str,
+    /// File with the signals without partner.
+    pub template: PathBuf,
     pub signals: &'a [SignalInfo],
     pub pairs: &'a Pairs,
 }
@@ -34,6 +37,19 @@ fn count(number: usize, what: &str) -> String {
         1 => format!("1 {what}"),
         _ => format!("{number} {what}s"),
     }
+}
+
+/// Returns a value as `compare` shows it, in hexadecimal and decimal, with the decimal number of a
+/// signed word.
+fn signed(value: &str, width: usize) -> String {
+    let number = |(hexadecimal, number): (&str, &str)| {
+        let above = 64_u32.checked_sub(u32::try_from(width).ok()?)?;
+        let number = (number.parse::<u64>().ok()?.checked_shl(above)? as i64) >> above;
+        Some(format!("{hexadecimal} = {number}"))
+    };
+    let shown = value.split_once(" = ").and_then(number);
+    // A bit, or a value with unknown bits.
+    shown.unwrap_or_else(|| value.to_owned())
 }
 
 /// Returns the paths of the paired signals that differ at the end of a trace.
@@ -168,6 +184,12 @@ impl Text<'_> {
         text
     }
 
+    /// Returns the registers without partner, in words.
+    pub fn registers_without(&self) -> String {
+        let without = self.paths(&self.pairs.registers_without);
+        format!("registers of {} without partner: {without}", self.circuit)
+    }
+
     /// Returns the error about ports without partner.
     pub fn unpaired(&self) -> String {
         let ports = self.paths(&self.pairs.ports_without);
@@ -176,11 +198,26 @@ impl Text<'_> {
         } else {
             ports
         };
-        format!(
-            "ports of {} without partner in {}: {ports}; copy {}.template.toml, fill in the names, and \
-             pass it with --map",
-            self.circuit, self.top, self.circuit
-        )
+        let mut text = format!(
+            "ports of {} without partner in {}: {ports}",
+            self.circuit, self.top
+        );
+        for Pair { signal, part } in &self.pairs.other_widths {
+            let signal = &self.signals[*signal];
+            let _ = write!(
+                text,
+                "; {} has {}, but {} of the design has {}",
+                signal.path,
+                bits(signal.width()),
+                part.net,
+                bits(part.width)
+            );
+        }
+        if !self.pairs.other_widths.is_empty() {
+            text += ": --width and --set change those of the circuit, --param those of the design";
+        }
+        let template = self.template.display();
+        text + &format!("; copy {template}, fill in the names, and pass it with --map")
     }
 
     /// Returns the error about a proof that is not found. `late` is the limit, if it ended the
@@ -212,18 +249,32 @@ impl Text<'_> {
         if !without.is_empty() {
             let _ = write!(
                 text,
-                "; registers of {} without partner: {}. {}.template.toml helps to map them",
-                self.circuit,
-                self.paths(without),
-                self.circuit
+                "; {}. {} helps to map them",
+                self.registers_without(),
+                self.template.display()
             );
         }
         text
     }
 
+    /// Gives the values of the first difference their sign, if they are signed: waves do not tell.
+    fn sign(&self, first: &mut Mismatch) {
+        let path = first.golden.strip_prefix(self.circuit);
+        let path = path.and_then(|path| path.strip_prefix('.'));
+        let mut signals = self.signals.iter();
+        let signal = signals.find(|signal| Some(&*signal.path) == path);
+        let Some(signal) = signal.filter(|signal| signal.is_signed()) else {
+            return;
+        };
+        for value in [&mut first.golden_value, &mut first.other_value] {
+            *value = signed(value, signal.width());
+        }
+    }
+
     /// Returns the first difference and the table around it; `None` if there is no difference.
-    pub fn differs(&self, report: &Report, design: &Netlist) -> Option<String> {
-        let first = report.first.as_ref()?;
+    pub fn differs(&self, mut report: Report, design: &Netlist) -> Option<String> {
+        let first = report.first.as_mut()?;
+        self.sign(first);
         let mut text = format!(
             "differs in tick {}: {} is {}, but {} of the design is {}\n",
             first.tick,
@@ -259,5 +310,22 @@ impl Text<'_> {
         text += &report.text(false);
         text.push('\n');
         Some(text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::signed;
+
+    #[test]
+    fn signed_words_are_shown_with_their_sign() {
+        assert_eq!(signed("0x1fff3 = 131059", 17), "0x1fff3 = -13");
+        assert_eq!(signed("0x0fff3 = 65523", 17), "0x0fff3 = 65523");
+        assert_eq!(
+            signed("0xffffffffffffffff = 18446744073709551615", 64),
+            "0xffffffffffffffff = -1"
+        );
+        assert_eq!(signed("0b1x0", 3), "0b1x0");
+        assert_eq!(signed("1", 1), "1");
     }
 }

@@ -39,6 +39,8 @@ pub struct Pairs {
     pub held: Vec<Pair>,
     /// Ports of the circuit without partner.
     pub ports_without: Vec<usize>,
+    /// Those of them whose name a port of the design has, with another width.
+    pub other_widths: Vec<Pair>,
     /// Ports of the circuit that the map leaves out.
     pub ports_left_out: Vec<usize>,
     /// Registers of the circuit without partner.
@@ -93,10 +95,14 @@ impl Sides<'_> {
                 }
                 None => by_name(),
             };
-            let pair = part.map(|part| Pair {
+            let mut pair = part.map(|part| Pair {
                 signal: index,
                 part,
             });
+            let other_width = pair.take_if(|pair| pair.part.width != signal.width());
+            pairs
+                .other_widths
+                .extend(other_width.filter(|_| signal.port.is_some()));
             match (signal.port, pair) {
                 (Some(PortDirection::In), Some(pair)) => pairs.inputs.push(pair),
                 (_, Some(pair)) if self.golden.nets.contains_key(&signal.verilog) => {
@@ -129,7 +135,8 @@ impl Sides<'_> {
         keys
     }
 
-    /// Returns the port or register of the design with the name and width of a signal.
+    /// Returns the port or register of the design with the name of a signal; one of its width, if
+    /// there is one.
     fn by_name(
         &self,
         signal: &SignalInfo,
@@ -148,17 +155,19 @@ impl Sides<'_> {
             None => [path, &signal.verilog],
             Some(_) => [path, path],
         };
-        let fits = |name: &&str| {
-            let net = &self.design.nets[*name];
+        let width = |name: &str| self.design.nets[name].width();
+        let is_kind = |name: &&str| {
             let right = match signal.port {
                 Some(PortDirection::In) => self.design.inputs.contains_key(*name),
                 Some(PortDirection::Out) => self.design.outputs.contains(*name),
-                None => signal.role == Role::Register && net.is_register,
+                None => signal.role == Role::Register && self.design.nets[*name].is_register,
             };
-            right && net.width() == signal.width() && !self.reserved.contains(&Some(*name))
+            right && !self.reserved.contains(&Some(*name))
         };
         let candidates = keys.get(&key(path)).map_or(&[][..], Vec::as_slice);
-        let mut candidates: Vec<&str> = candidates.iter().copied().filter(fits).collect();
+        let candidates = candidates.iter().copied().filter(is_kind);
+        let (mut candidates, others): (Vec<&str>, Vec<&str>) =
+            candidates.partition(|name| width(name) == signal.width());
         // A bundle of outputs as a scope in the design, whose nets are no ports.
         if let Some((name, net)) = self.design.nets.get_key_value(path)
             && candidates.is_empty()
@@ -166,6 +175,9 @@ impl Sides<'_> {
             && net.width() == signal.width()
         {
             candidates.push(name);
+        }
+        if candidates.is_empty() {
+            candidates = others;
         }
         let exact = names.iter().find(|name| candidates.contains(name)).copied();
         let net = exact.or_else(|| {
@@ -177,7 +189,7 @@ impl Sides<'_> {
         Some(Part {
             net: net.to_owned(),
             low: 0,
-            width: signal.width(),
+            width: width(net),
             invert: false,
         })
     }

@@ -89,7 +89,14 @@ fn pairs(
         )
     };
     let lines = pairs.inputs.iter().chain(&pairs.held).map(line).collect();
-    let path = |index: &usize| signals[*index].path.clone();
+    let path = |index: &usize| {
+        let path = &signals[*index].path;
+        let mut others = pairs.other_widths.iter();
+        match others.find(|pair| pair.signal == *index) {
+            Some(pair) => format!("{path}, not of {}", bits(pair.part.width)),
+            None => path.clone(),
+        }
+    };
     Ok((lines, pairs.ports_without.iter().map(path).collect()))
 }
 
@@ -114,6 +121,15 @@ fn registers_and_ports_pair_by_name_and_width() {
     ];
     assert_eq!(lines, expected);
     assert!(without.is_empty());
+    // A port of another width is no partner, unlike one of the width with a name as good.
+    let nets = [
+        ("half_period", 5, 'i'),
+        ("period", 5, 'i'),
+        ("Period", 4, 'i'),
+    ];
+    let (lines, without) = pairs("unit_law", &["width=4"], &nets, "").unwrap();
+    assert_eq!(lines, ["period = Period[0+4]"]);
+    assert_eq!(without, ["half_period, not of 5 bits", "step"]);
     // A net is no port, and the reset is no partner.
     let nets = [("rst", 1, 'i'), ("period", 4, 'w'), ("step", 1, 'w')];
     let (lines, without) = pairs("unit_law", &["width=4"], &nets, "").unwrap();
