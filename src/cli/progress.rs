@@ -14,8 +14,12 @@ use std::time::{Duration, Instant};
 
 /// A run that is estimated to take less is not announced.
 const LONG_S: f64 = 2.0;
-/// Time from one line to the next where there is no terminal, and between two looks at a bar.
-const LINES: Duration = Duration::from_secs(10);
+/// Time from one line to the next where there is no terminal, and between two looks at a bar. A page
+/// shows each line.
+const LINES: Duration = match cfg!(target_family = "wasm") {
+    true => Duration::from_millis(200),
+    false => Duration::from_secs(10),
+};
 const LOOKS: Duration = Duration::from_millis(200);
 /// Ticks between two looks at how far a run is.
 const PROGRESS: u64 = 1 << 18;
@@ -79,29 +83,52 @@ pub fn begin() {
     if voice::is_quiet() {
         return;
     }
-    // Without a thread it is not told between two ticks.
-    let _ = thread::Builder::new()
+    let thread = thread::Builder::new()
         .name("progress".into())
         .spawn(move || {
             loop {
                 sleep(if terminal { LOOKS } else { LINES });
-                let line = {
-                    let stage = STAGE.lock().unwrap_or_else(PoisonError::into_inner);
-                    if stage.name.is_empty() {
-                        return;
-                    }
-                    // A run may take some ticks more than it was thought to.
-                    let most = stage.ticks - stage.ticks / 100;
-                    BAR.set_position(DONE.load(Ordering::Relaxed).min(most));
-                    line(&stage, DONE.load(Ordering::Relaxed), began.elapsed())
-                };
-                match terminal {
-                    true => BAR.tick(),
-                    // Standard error may be closed.
-                    false => drop(writeln!(stderr(), "{line}")),
+                if !look(terminal, began.elapsed()) {
+                    return;
                 }
             }
         });
+    // Without a thread it is told by the runs.
+    let told = thread.is_err().then(|| began.elapsed());
+    *TOLD.lock().unwrap_or_else(PoisonError::into_inner) = told;
+}
+
+/// Time of the last line, if runs write them.
+static TOLD: Mutex<Option<Duration>> = Mutex::new(None);
+
+/// Tells how far a run is, if no thread does and a line is due.
+fn tell_between_ticks() {
+    let mut told = TOLD.lock().unwrap_or_else(PoisonError::into_inner);
+    let now = BEGAN.elapsed();
+    if told.is_some_and(|told| now - told >= LINES) {
+        *told = Some(now);
+        look(false, now);
+    }
+}
+
+/// Shows how far the work is; returns false if it has ended.
+fn look(terminal: bool, after: Duration) -> bool {
+    let line = {
+        let stage = STAGE.lock().unwrap_or_else(PoisonError::into_inner);
+        if stage.name.is_empty() {
+            return false;
+        }
+        // A run may take some ticks more than it was thought to.
+        let most = stage.ticks - stage.ticks / 100;
+        BAR.set_position(DONE.load(Ordering::Relaxed).min(most));
+        line(&stage, DONE.load(Ordering::Relaxed), after)
+    };
+    match terminal {
+        true => BAR.tick(),
+        // Standard error may be closed.
+        false => drop(writeln!(stderr(), "{line}")),
+    }
+    true
 }
 
 fn line(stage: &Stage, done: u64, after: Duration) -> String {
@@ -204,6 +231,7 @@ impl<C: Circuit> Observer<C> for Part {
             DONE.fetch_add(now.tick - self.counted, Ordering::Relaxed);
             self.counted = now.tick;
             self.due = now.tick + PROGRESS;
+            tell_between_ticks();
         }
         Ok(ControlFlow::Continue(()))
     }

@@ -18,23 +18,41 @@ pub fn start() -> Result<(), Failure> {
         .and_then(|text| text.trim().parse().ok())
         .filter(|&number| number > 0);
     let threads = asked.unwrap_or(processors).min(MOST * processors);
-    let pool = ThreadPoolBuilder::new().num_threads(threads);
+    let pool = match cfg!(target_family = "wasm") {
+        // There are no threads but this one.
+        true => ThreadPoolBuilder::new().num_threads(1).use_current_thread(),
+        false => ThreadPoolBuilder::new().num_threads(threads),
+    };
     pool.build_global()
         .map_err(|error| none(&io::Error::other(error.to_string())))
+}
+
+/// Work beside this thread.
+pub enum Beside<'scope, T> {
+    /// In a thread of its own.
+    Thread(ScopedJoinHandle<'scope, T>),
+    /// Done already, where there are no threads.
+    Done(T),
 }
 
 /// Starts a thread beside this one.
 pub fn beside<'scope, T: Send + 'scope>(
     scope: &'scope Scope<'scope, '_>,
     work: impl FnOnce() -> T + Send + 'scope,
-) -> Result<ScopedJoinHandle<'scope, T>, Failure> {
+) -> Result<Beside<'scope, T>, Failure> {
+    if cfg!(target_family = "wasm") {
+        return Ok(Beside::Done(work()));
+    }
     let started = Builder::new().spawn_scoped(scope, work);
-    started.map_err(|error| none(&error))
+    started.map(Beside::Thread).map_err(|error| none(&error))
 }
 
 /// Joins a thread and returns its result; a panic of the thread continues here.
-pub fn joined<T>(other: ScopedJoinHandle<'_, T>) -> T {
-    other.join().unwrap_or_else(|panic| resume_unwind(panic))
+pub fn joined<T>(other: Beside<'_, T>) -> T {
+    match other {
+        Beside::Thread(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
+        Beside::Done(result) => result,
+    }
 }
 
 /// Returns the error for a thread that could not be started.

@@ -26,31 +26,41 @@ pub(crate) trait Sink: Send + 'static {
 
 /// Collects changes in sections; a thread takes full sections and returns empty ones.
 ///
-/// The number of sections is fixed: the run waits for the thread.
+/// The number of sections is fixed: the run waits for the thread. Where there are no threads, the
+/// run itself writes them.
 #[derive(Debug)]
 pub(crate) struct Behind<S> {
     section: Section,
     /// Numbers of changes and of ticks at which it is full.
     at: (usize, usize),
-    /// Channel to the thread; `None` once the thread is to end.
-    full: Option<SyncSender<Section>>,
-    spare: Receiver<Section>,
-    /// Handle of the thread; `None` once it has ended.
-    thread: Option<JoinHandle<io::Result<S>>>,
+    /// `None` once writing has ended.
+    writer: Option<Writer<S>>,
 }
 
-impl<S: Sink> Behind<S> {
-    /// Starts the thread.
-    pub fn new(mut sink: S) -> io::Result<Self> {
+#[derive(Debug)]
+enum Writer<S> {
+    Here(Box<S>),
+    Thread {
+        /// Channel to the thread, which ends when it is dropped.
+        full: SyncSender<Section>,
+        spare: Receiver<Section>,
+        handle: JoinHandle<io::Result<S>>,
+    },
+}
+
+impl<S: Sink> Writer<S> {
+    fn start(mut sink: S) -> io::Result<Self> {
+        if cfg!(target_family = "wasm") {
+            return Ok(Writer::Here(Box::new(sink)));
+        }
         let (full, work) = sync_channel::<Section>(SECTIONS);
         let (back, spare) = sync_channel(SECTIONS);
         for _ in 1..SECTIONS {
             // The channel has room for all sections, and its other end exists.
             let _ = back.send(Section::default());
         }
-        let at = sink.full();
         let thread = Builder::new().name("waves".into());
-        let thread = thread.spawn(move || {
+        let handle = thread.spawn(move || {
             for mut section in work {
                 sink.write(&section)?;
                 section.clear();
@@ -59,16 +69,38 @@ impl<S: Sink> Behind<S> {
             }
             Ok(sink)
         });
-        let thread = thread.map_err(|error| {
+        let handle = handle.map_err(|error| {
             let text = format!("a thread for the waves could not be started: {error}");
             io::Error::new(error.kind(), text)
         })?;
+        Ok(Writer::Thread {
+            full,
+            spare,
+            handle,
+        })
+    }
+}
+
+impl<S> Writer<S> {
+    /// Waits until all sections sent are written.
+    fn join(self) -> io::Result<S> {
+        match self {
+            Writer::Here(sink) => Ok(*sink),
+            Writer::Thread { full, handle, .. } => {
+                drop(full);
+                handle.join().unwrap_or_else(|_| Err(ended()))
+            }
+        }
+    }
+}
+
+impl<S: Sink> Behind<S> {
+    /// Starts the thread.
+    pub fn new(sink: S) -> io::Result<Self> {
         Ok(Behind {
             section: Section::default(),
-            at,
-            full: Some(full),
-            spare,
-            thread: Some(thread),
+            at: sink.full(),
+            writer: Some(Writer::start(sink)?),
         })
     }
 
@@ -77,25 +109,31 @@ impl<S: Sink> Behind<S> {
     /// # Errors
     /// Returns the error of the sink for an earlier section.
     fn hand_over(&mut self) -> io::Result<()> {
-        let full = mem::take(&mut self.section);
-        let sent = self.full.as_ref().is_some_and(|to| to.send(full).is_ok());
-        match (sent, self.spare.recv()) {
-            (true, Ok(empty)) => {
-                self.section = empty;
+        match &mut self.writer {
+            Some(Writer::Here(sink)) => {
+                sink.write(&self.section)?;
+                self.section.clear();
                 Ok(())
             }
-            // The thread ends early only on an error.
-            _ => self.join().and(Err(ended())),
+            Some(Writer::Thread { full, spare, .. }) => {
+                let sent = full.send(mem::take(&mut self.section)).is_ok();
+                match (sent, spare.recv()) {
+                    (true, Ok(empty)) => {
+                        self.section = empty;
+                        Ok(())
+                    }
+                    // The thread ends early only on an error.
+                    _ => self.join().and(Err(ended())),
+                }
+            }
+            None => Err(ended()),
         }
     }
 
-    /// Waits until all sections sent are written.
     fn join(&mut self) -> io::Result<S> {
-        self.full = None;
-        match self.thread.take().map(JoinHandle::join) {
-            Some(Ok(result)) => result,
-            Some(Err(_)) | None => Err(ended()),
-        }
+        self.writer
+            .take()
+            .map_or_else(|| Err(ended()), Writer::join)
     }
 }
 
@@ -127,10 +165,9 @@ impl<S: Sink> Format for Behind<S> {
 impl<S> Drop for Behind<S> {
     /// Waits for the thread, so that the sink is dropped too.
     fn drop(&mut self) {
-        self.full = None;
-        if let Some(thread) = self.thread.take() {
+        if let Some(writer) = self.writer.take() {
             // Without `finish`, nobody wants the result.
-            let _ = thread.join();
+            let _ = writer.join();
         }
     }
 }

@@ -17,6 +17,7 @@ static RUNNING: Mutex<Vec<Running>> = Mutex::new(Vec::new());
 /// A program, and the temporary directory in which it runs.
 struct Running {
     child: Arc<Mutex<Child>>,
+    #[cfg_attr(not(unix), expect(dead_code, reason = "signals alone remove it"))]
     directory: PathBuf,
 }
 
@@ -177,6 +178,7 @@ fn end(child: &Mutex<Child>, until: Instant) -> io::Result<End> {
 }
 
 /// Ends all programs that are running, and removes their directories.
+#[cfg(unix)]
 pub fn stop() {
     for running in lock(&RUNNING).drain(..) {
         let mut child = lock(&running.child);
