@@ -7,7 +7,7 @@ use clap::{Args, value_parser};
 use std::path::PathBuf;
 
 /// Arguments of `run`.
-#[derive(Debug, Default, Args)]
+#[derive(Debug, Clone, Default, Args)]
 pub struct Arguments {
     #[command(flatten)]
     pub input: Input,
@@ -63,6 +63,10 @@ pub struct Arguments {
     /// Also writes the names of states for Surfer, to .surfer/mappings beside the waves.
     #[arg(long, conflicts_with = "no_vcd")]
     pub surfer: bool,
+    /// Also writes a page that shows the run in a browser: path, errors and waves. Writes the waves
+    /// as FST and the series STEM.csv for it.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["format", "no_vcd", "waves_of"])]
+    pub html: Option<PathBuf>,
     /// Shows the waves in GTKWave, or in Surfer if GTKWave is not installed.
     #[arg(long, conflicts_with = "no_vcd")]
     pub open: bool,

@@ -77,6 +77,16 @@ Examples:
   motion-rtl keys lead_angle
   motion-rtl keys lead_angle --json-schema >lead_angle.schema.json";
 
+#[cfg(not(target_family = "wasm"))]
+pub const SERVE: &str = "\
+Examples:
+  motion-rtl serve
+  motion-rtl serve --port 8100";
+
+pub const PAGE: &str = "\
+Examples:
+  motion-rtl page my_motion-rtl.wasm --out build/page";
+
 pub const CLEAN: &str = "\
 Examples:
   motion-rtl clean build --dry-run

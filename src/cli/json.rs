@@ -27,13 +27,24 @@ struct Versioned<'a, T> {
 
 /// Prints the keys of a value and their version.
 pub fn print(value: &impl Serialize) -> Result<(), Failure> {
+    let text = text(value)?;
+    PRINTED.store(true, Relaxed);
+    to_standard_output(&text)
+}
+
+/// Returns the text that [`print`] prints.
+pub fn text(value: &impl Serialize) -> Result<String, Failure> {
     let version = VERSION;
-    print_alone(&Versioned { version, value })
+    alone(&Versioned { version, value })
 }
 
 /// Prints a value that has a version of its own or needs none.
 pub fn print_alone(value: &impl Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(value).map_err(io::Error::from)?;
+    let text = alone(value)?;
     PRINTED.store(true, Relaxed);
-    to_standard_output(&(text + "\n"))
+    to_standard_output(&text)
+}
+
+fn alone(value: &impl Serialize) -> Result<String, Failure> {
+    Ok(serde_json::to_string_pretty(value).map_err(io::Error::from)? + "\n")
 }

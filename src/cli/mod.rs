@@ -30,6 +30,7 @@ mod magnification;
 mod mutate;
 mod names;
 mod notes;
+mod page;
 mod pieces;
 mod plan;
 pub mod program;
@@ -41,6 +42,8 @@ mod run;
 #[cfg(feature = "schema")]
 mod schema;
 mod series;
+#[cfg(not(target_family = "wasm"))]
+mod serve;
 mod setup;
 #[cfg(feature = "shell")]
 mod shell;

@@ -61,6 +61,13 @@ enum Command {
     /// Lists the keys of a job's scenarios or of a circuit: types, units, values and ranges.
     #[command(after_help = help::KEYS)]
     Keys(super::keys::Arguments),
+    /// Serves a page in which jobs run and are looked at, on this machine alone.
+    #[cfg(not(target_family = "wasm"))]
+    #[command(after_help = help::SERVE)]
+    Serve(super::serve::Arguments),
+    /// Writes that page with the program inside, for a browser alone.
+    #[command(after_help = help::PAGE)]
+    Page(super::page::Arguments),
     /// Removes the files that commands have written into a directory, after naming them: waves,
     /// pictures, counterexamples, tables, Verilog, VHDL and stimuli.
     #[command(after_help = help::CLEAN)]
@@ -234,6 +241,9 @@ fn run(command: Option<Command>) -> Result<(), Failure> {
         Some(Command::Plan(arguments)) => super::plan::plan(&arguments),
         Some(Command::List(arguments)) => super::list::list(&arguments),
         Some(Command::Keys(arguments)) => super::keys::keys(&arguments),
+        #[cfg(not(target_family = "wasm"))]
+        Some(Command::Serve(arguments)) => super::serve::serve(&arguments),
+        Some(Command::Page(arguments)) => super::page::page(&arguments),
         Some(Command::Clean(arguments)) => super::clean::clean(&arguments),
         #[cfg(feature = "schema")]
         Some(Command::Schema) => super::schema::schema(),

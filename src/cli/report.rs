@@ -1,12 +1,15 @@
 //! End of every run: the fields that all summaries share, and their output.
 
-use super::files::{Files, Named};
+use super::files::{Files, Named, parent, refuse_file};
 use super::setup::Setup;
 use super::viewer::Viewer;
-use super::{Failure, json, print, progress, warn};
+use super::written::Written;
+use super::{Failure, json, page, print, progress, warn};
+use motion_rtl::files::write;
 use serde::Serialize;
 use std::fmt::{self, Write as _};
 use std::ops::Range;
+use std::path::Path;
 
 /// Fields that all summaries share.
 #[derive(Debug, Serialize)]
@@ -104,6 +107,10 @@ pub fn conclude(
     progress::end();
     outcome.warnings.extend(files.take_notes());
     outcome.files = files.commit()?;
+    if let Some(path) = &arguments.html {
+        let written = write_page(path, &mut summary)?;
+        summary.outcome().files.push(written);
+    }
     match arguments.json {
         true => json::print(&summary)?,
         false => {
@@ -126,6 +133,18 @@ pub fn conclude(
         [] => Ok(()),
         complaints => Err(Failure::Check(complaints.join("\n"))),
     }
+}
+
+/// Writes the page of a run, from its summary and its files.
+fn write_page(path: &Path, summary: &mut impl Report) -> Result<Named, Failure> {
+    let text = json::text(summary)?;
+    let outcome = summary.outcome();
+    let files = outcome.files.iter().map(|file| Path::new(&file.path));
+    let page = page::of_run(text, !outcome.complaints.is_empty(), files)?;
+    let list = Written::read(parent(path));
+    let written = write(path, page).map_err(|error| refuse_file("--html", &error))?;
+    list.add([written.as_path()].into_iter());
+    Ok(Named::new(&written))
 }
 
 /// Returns the first complaint of one kind and the count of the others.

@@ -2,10 +2,13 @@
 
 use super::arguments::Arguments;
 use super::job::Job;
+use super::series::SeriesPath;
 use super::source::Source;
 use super::traces::DIRECTORY;
 use super::viewer::Viewer;
+use super::wave_format::Format;
 use super::{Failure, progress};
+use motion_rtl::trace::SeriesFormat;
 use std::path::Path;
 
 /// The key that `--beside` sets.
@@ -30,14 +33,34 @@ fn play(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(series) = &arguments.series {
         source.spare_inputs("--series", &series.path, &input)?;
     }
-    // An input with a format of its own may have any extension.
+    if let Some(page) = &arguments.html {
+        source.spare_inputs("--html", page, &input)?;
+    }
     let directory = arguments.out.as_deref().unwrap_or(Path::new(DIRECTORY));
+    let arguments = match arguments.html {
+        Some(_) => &with_page(arguments, directory, &source.stem),
+        None => arguments,
+    };
+    // An input with a format of its own may have any extension.
     for extension in ["vcd", "fst", "svg"] {
         let output = directory.join(format!("{}.{extension}", source.stem));
         source.spare_inputs("--out", &output, &input)?;
     }
     source.compares |= arguments.waves_of.is_some();
     Job::prepare(source)?.run(arguments)
+}
+
+/// Returns the arguments with the files that a page shows.
+fn with_page(arguments: &Arguments, directory: &Path, stem: &str) -> Arguments {
+    let series = || SeriesPath {
+        path: directory.join(format!("{stem}.csv")),
+        format: SeriesFormat::Csv,
+    };
+    Arguments {
+        format: Format::Fst,
+        series: Some(arguments.series.clone().unwrap_or_else(series)),
+        ..arguments.clone()
+    }
 }
 
 /// Refuses a window of nothing.

@@ -13,7 +13,8 @@ pub struct Shipped {
     pub file: &'static str,
     /// Description in one line.
     pub about: &'static str,
-    text: &'static str,
+    /// Its text.
+    pub text: &'static str,
     input: Option<Input>,
     /// Tables of the pulse interpolator.
     tables: &'static [Input],

@@ -19,6 +19,8 @@ const SHELL: &str = r#"
 program() {
     case "$*" in
         mutate) ;;
+        # Serves until it is ended; tests of its page run it.
+        serve) ;;
         # All of it takes minutes: a part.
         "check integrator --width 8") "$MOTION_RTL" "$@" --shard 1/64 ;;
         *) "$MOTION_RTL" "$@" ;;

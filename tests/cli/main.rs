@@ -42,6 +42,7 @@ mod machine_waves;
 mod memory;
 mod mutate;
 mod notes;
+mod page;
 mod patterns;
 mod plan;
 mod program;

@@ -54,8 +54,7 @@ fn the_name_of_a_command_is_the_command() {
 #[test]
 fn a_mistyped_command_or_scenario_is_named() {
     let bench = Bench::new();
-    let commands =
-        "run, table, check, mutate, verilog, vhdl, compare, equal, plan, list, keys, clean";
+    let commands = "run, table, check, mutate, verilog, vhdl, compare, equal, plan, list, keys, serve, page, clean";
     let done = bench.run(&["chek"]);
     assert_eq!((done.code, done.stdout.as_str()), (2, ""));
     let text = format!(

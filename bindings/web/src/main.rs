@@ -1,0 +1,12 @@
+//! The program `motion-rtl` for browsers, from its own sources.
+
+#[path = "../../../src/cli/mod.rs"]
+mod cli;
+#[cfg(feature = "wasi-libc-2022")]
+mod missing;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    ExitCode::from(cli::program::main(std::env::args_os().collect()))
+}

@@ -1,0 +1,177 @@
+"""What a reader does with the page, and that it shows what the program prints and writes."""
+
+import json
+import re
+import subprocess
+import urllib.error
+import urllib.request
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from conftest import CHECKOUT, PROGRAM, ended, free_port, needs_wasm, program, summary
+
+SCENARIOS = [scenario["file"] for scenario in json.loads(program("list", "--json"))["scenarios"]]
+
+
+def compared(found):
+    """A summary without what depends on where files are written."""
+    return {key: value for key, value in found.items() if key not in ("files", "vcd_window")}
+
+
+@pytest.mark.parametrize("scenario", SCENARIOS)
+def test_every_shipped_scenario_has_the_summary_of_the_program(page, address, tmp_path, scenario):
+    page.goto(f"{address}#run={scenario}")
+    assert "exit code 0" in ended(page, 400)
+    expected = json.loads(program("run", scenario, "--json", "--no-vcd", "--out", tmp_path))
+    assert compared(summary(page)) == compared(expected)
+
+
+def test_the_first_run_is_there_soon(page, address):
+    page.goto(address)
+    paint = page.evaluate(
+        """() => new Promise(resolve => new PerformanceObserver((list) =>
+            resolve(list.getEntries()[0].startTime)).observe({type: "paint", buffered: true}))"""
+    )
+    assert paint < 1000
+    ended(page)
+    assert page.evaluate("performance.now()") < 8000
+    assert page.evaluate("performance.memory.usedJSHeapSize") < 300e6
+
+
+@needs_wasm
+def test_a_file_opened_without_a_server(page, page_files):
+    page.goto((page_files / "motion-rtl.html").as_uri())
+    assert "exit code 0" in ended(page)
+    assert summary(page)["circuit"] == "pulse_interpolator"
+    assert (page_files / "motion-rtl.html").stat().st_size <= 6e6
+
+
+def test_a_drawing_of_the_reader(opened, tmp_path):
+    drawing = CHECKOUT / "waves/rosette.hpgl"
+    own = tmp_path / "mine.hpgl"
+    own.write_bytes(drawing.read_bytes())
+    opened.set_input_files("#file", own)
+    opened.wait_for_function("() => document.querySelector('.status').textContent.includes('mine.hpgl')")
+    assert "exit code 0" in ended(opened)
+    words = ["run", own, "--set", "circuit=pulse_interpolator", "--json", "--no-vcd", "--out", tmp_path]
+    expected = compared(json.loads(program(*words)))
+    assert compared(summary(opened)) | {"input": 0} == expected | {"input": 0}
+
+
+def test_a_bad_file_is_shown_with_line_and_caret(opened, tmp_path):
+    own = tmp_path / "bad.ngc"
+    own.write_text("G21 G90\nG1 X10 F600\nG1 X1O\n")
+    opened.set_input_files("#file", own)
+    opened.wait_for_selector(".problem pre")
+    text = opened.locator(".problem").inner_text()
+    assert "bad.ngc:3" in text and "^" in text
+
+
+def test_a_run_is_cancelled(page, address):
+    page.goto(f"{address}#run=waves/feed.toml")
+    page.get_by_role("button", name="Cancel").first.click()
+    assert ended(page) == "Cancelled."
+
+
+def test_a_setting_is_refused_at_its_field(opened):
+    opened.evaluate("location.hash = 'run=waves/bracket.toml&set=clock_hz=0'")
+    opened.reload()
+    opened.wait_for_selector(".problem pre")
+    assert "clock_hz" in opened.locator(".problem").inner_text()
+
+
+def test_a_value_at_the_play_head_is_that_of_the_vcd(opened, tmp_path):
+    program("run", "waves/bracket.toml", "--to", "2000", "--out", tmp_path)
+    opened.get_by_role("tab", name="Circuit").click()
+    opened.wait_for_selector(".diagram")
+    values = last_values(tmp_path / "bracket.vcd", 1500)
+    opened.evaluate("window.motionRtl.playhead.set(1500, null)")
+    opened.wait_for_function("() => document.querySelector('td.value').textContent !== ''")
+    rows = opened.locator(".pane-circuit tr:has(td.value)")
+    seen = 0
+    for row in rows.all():
+        name = row.locator("th").inner_text()
+        value = row.locator("td.value").inner_text()
+        expected = values.get(f"pulse_interpolator.{name}")
+        if expected is not None and re.fullmatch("[01]", value):
+            assert value == expected, name
+            seen += 1
+    assert seen >= 5
+
+
+def last_values(path, tick):
+    """Values of one-bit signals in a tick, by path. A tick begins where `clk` rises."""
+    names, scopes, changes, rises = {}, [], [], []
+    time = 0
+    for line in path.read_text().splitlines():
+        words = line.split()
+        if line.startswith("$scope"):
+            scopes.append(words[2])
+        elif line.startswith("$upscope"):
+            scopes.pop()
+        elif line.startswith("$var"):
+            names.setdefault(words[3], []).append(".".join([*scopes, words[4]]))
+        elif line.startswith("#"):
+            time = int(line[1:])
+        elif line[:1] in ("0", "1"):
+            changes.append((time, line))
+            if line[0] == "1" and any(name.endswith(".clk") for name in names[line[1:]]):
+                rises.append(time)
+    last = rises[tick]
+    return {name: line[0] for time, line in changes if time <= last for name in names[line[1:]]}
+
+
+def test_a_proof_and_a_counterexample(opened):
+    opened.get_by_role("tab", name="Try a law").click()
+    opened.wait_for_selector("#law-circuit")
+    opened.get_by_role("button", name="Prove").click()
+    opened.wait_for_selector(".law-result .good")
+    text = opened.locator(".law-result").inner_text()
+    row = json.loads(program("check", "unit_law", "--json"))["rows"][0]
+    assert f"{row['states']} states, {row['transitions']} transitions" in text
+    opened.fill("#law-set", "variant=literal")
+    opened.get_by_role("button", name="Prove").click()
+    opened.wait_for_selector(".law-result .bad")
+    opened.get_by_role("button", name="Show the counterexample in the waves").click()
+    assert opened.locator("#pane-waves").is_visible()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_every_pane_is_accessible(opened, scheme):
+    opened.emulate_media(color_scheme=scheme)
+    for pane in ["Path", "Waves", "Circuit", "Try a law", "Summary"]:
+        opened.get_by_role("tab", name=pane).click()
+        found = Axe().run(opened)
+        assert found.violations_count == 0, f"{pane}: {found.generate_report()}"
+
+
+def test_tabs_by_keys(opened):
+    opened.get_by_role("tab", name="Path").focus()
+    opened.keyboard.press("ArrowRight")
+    assert opened.get_by_role("tab", name="Waves").get_attribute("aria-selected") == "true"
+    assert opened.locator("#pane-waves").is_visible()
+
+
+def test_the_page_of_a_run_shows_it_without_the_program(page, tmp_path):
+    report = tmp_path / "report.html"
+    words = ["run", "waves/weld.toml", "--json", "--out", tmp_path, "--html", report]
+    expected = json.loads(program(*words))
+    page.goto(report.as_uri())
+    page.wait_for_selector('a[download="summary.json"]', state="attached")
+    assert compared(summary(page)) == compared(expected)
+
+
+def test_another_site_is_refused(tmp_path):
+    port = free_port()
+    with subprocess.Popen([PROGRAM, "serve", "--port", str(port)], stdout=subprocess.PIPE, text=True) as server:
+        address = server.stdout.readline().strip()
+        statuses = []
+        for headers in [{}, {"Origin": "http://example.org"}, {"Host": f"example.org:{port}"}]:
+            asked = urllib.request.Request(address, headers=headers)
+            try:
+                with urllib.request.urlopen(asked) as answer:
+                    statuses.append(answer.status)
+            except urllib.error.HTTPError as error:
+                statuses.append(error.code)
+        server.terminate()
+    assert statuses == [200, 403, 403]
