@@ -16,7 +16,7 @@ export class ExactNumber {
 
 /**
  * A value of JSON whose numbers keep their text.
- * @typedef {null | boolean | string | ExactNumber | ExactJson[] | Map<string, any>} ExactJson
+ * @typedef {null | boolean | string | ExactNumber | any[] | Map<string, any>} ExactJson
  */
 
 const JSON_TOKEN = /\s*(?:([{}[\],:])|("(?:[^"\\]|\\.)*")|(-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][+-]?\d+)?)|(true|false|null))/y;

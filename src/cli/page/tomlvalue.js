@@ -1,6 +1,6 @@
 /**
  * A value of TOML as JavaScript has it. Dates are not values of a scenario.
- * @typedef {string | number | boolean | TomlValue[] | { [key: string]: TomlValue }} TomlValue
+ * @typedef {string | number | boolean | any[] | { [key: string]: any }} TomlValue
  */
 
 /**
