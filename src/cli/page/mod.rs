@@ -87,7 +87,7 @@ const SCRIPTS: &[&str] = sources![
 /// Greatest effort of the compression.
 const BEST: u8 = 10;
 
-/// What the page runs.
+/// The program that runs the jobs of the page.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Program<'a> {
@@ -122,7 +122,7 @@ pub struct Run {
     pub files: Vec<(String, String)>,
 }
 
-/// What the page begins with.
+/// Data inside the page, with which it starts.
 #[derive(Debug, Serialize)]
 struct Start<'a> {
     program: Option<Program<'a>>,

@@ -1,4 +1,4 @@
-// What the page begins with: the program, the shipped scenarios, and a finished run.
+// Data inside the page, with which it starts: the program, the shipped scenarios, and a finished run.
 import { BrowserRunner, ServedRunner, fromBase64 } from "./runner.js";
 
 /** @typedef {import("./worker.js").Result} Result */
@@ -14,7 +14,7 @@ import { BrowserRunner, ServedRunner, fromBase64 } from "./runner.js";
  */
 
 /**
- * What the page was made with. The program is within the page (base64 of its gzip), beside it (an
+ * Data inside the page. The program is within the page (base64 of a zlib stream), beside it (an
  * address), served (where jobs are posted), or there is none.
  * @typedef {object} Start
  * @property {{ within: string } | { beside: string } | { served: string } | null} program
@@ -23,7 +23,7 @@ import { BrowserRunner, ServedRunner, fromBase64 } from "./runner.js";
  * @property {string} version
  */
 
-/** Reads what the page was made with. */
+/** Reads the data inside the page. */
 export function readStart() {
   return /** @type {Start} */ (JSON.parse(textOf("start")));
 }
@@ -61,7 +61,7 @@ function textOf(id) {
 /** @param {string} text */
 async function unzipped(text) {
   const stream = new Blob([fromBase64(text)]).stream();
-  return new Response(stream.pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  return new Response(stream.pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
 }
 
 /** @param {string} address */

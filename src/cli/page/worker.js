@@ -54,7 +54,8 @@ export async function work(module, { words, files, input }, say) {
     },
   });
   const code = await system.run(module);
-  const written = tree.list().filter(([path]) => !given.has(path));
+  // Hidden files are the program's own.
+  const written = tree.list().filter(([path]) => !given.has(path) && !/(^|\/)\./.test(path));
   // Each with a buffer of its own size, which is handed over and not copied again.
   const results = written.map(([path, bytes]) => /** @type {const} */ ([path, bytes.slice()]));
   const [out, errors] = printed;

@@ -31,7 +31,7 @@ pub struct Asked {
     input: Option<String>,
 }
 
-/// What there is of a job.
+/// State of a job: its messages so far and, once it has ended, its result.
 #[derive(Debug, Serialize)]
 pub struct State {
     /// Text on standard error from the given byte on.

@@ -57,7 +57,7 @@ pub fn serve(arguments: &Arguments) -> Result<(), Failure> {
     server.join().map_err(refuse)
 }
 
-/// What is served.
+/// The site: its addresses, and the jobs of its pages.
 struct Site {
     origin: String,
     host: String,
