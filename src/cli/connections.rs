@@ -1,6 +1,7 @@
 //! Parts of a circuit and their connections, as `list` prints them.
 
 use motion_rtl::netlist::{Kind, Shape};
+use motion_rtl::registry::find;
 use motion_rtl::verilog;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -19,6 +20,8 @@ pub struct Connections {
 struct Part {
     name: String,
     circuit: String,
+    /// Patent and block of the circuit.
+    source: &'static str,
     parameters: BTreeMap<String, u64>,
     inputs: Vec<Connection>,
     outputs: Vec<Signal>,
@@ -61,25 +64,29 @@ impl Signal {
 }
 
 impl Connections {
-    /// Returns the connections of a circuit; `None` if it has no parts.
-    pub fn of(connections: verilog::Connections) -> Option<Self> {
+    /// Returns the connections of a circuit.
+    pub fn of(connections: verilog::Connections) -> Self {
         let verilog::Connections {
             parts,
             outputs,
             nets,
             registers,
         } = connections;
-        (!parts.is_empty()).then(|| Connections {
+        Connections {
             parts: parts.into_iter().map(part).collect(),
             outputs: driven(outputs),
             nets: driven(nets),
             registers: driven(registers),
-        })
+        }
     }
 
-    /// Returns the lines to print below the circuit's ports.
+    /// Returns the lines to print below the circuit's ports; none for a circuit without parts.
     pub fn text(&self) -> String {
         let mut text = String::new();
+        if self.parts.is_empty() {
+            return text;
+        }
+        text.push('\n');
         // Writing to a string does not fail.
         for part in &self.parts {
             let _ = writeln!(text, "    {}: {}", part.name, part.circuit);
@@ -112,6 +119,7 @@ fn lines(text: &mut String, sign: &str, connections: &[Connection]) {
 
 fn part(part: verilog::Part) -> Part {
     Part {
+        source: find(&part.circuit).map_or("", |entry| entry.source),
         name: part.name,
         circuit: part.circuit,
         parameters: part.parameters.into_iter().collect(),

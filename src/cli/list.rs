@@ -102,7 +102,7 @@ pub fn list(arguments: &Arguments) -> Result<(), Failure> {
             let made = made.map_err(|error| refused(entry, error))?;
             let connections = made.connections().map_err(RunError::from)?;
             let mut circuit = circuit(entry, &*made);
-            circuit.connections = Connections::of(connections);
+            circuit.connections = Some(Connections::of(connections));
             Listing {
                 circuits: vec![circuit],
                 scenarios: Vec::new(),
@@ -164,7 +164,7 @@ fn text(listing: &Listing) -> String {
         let _ = writeln!(text, "    in      {}", ports(&circuit.inputs));
         let _ = writeln!(text, "    out     {}", ports(&circuit.outputs));
         if let Some(connections) = &circuit.connections {
-            let _ = write!(text, "\n{}", connections.text());
+            text.push_str(&connections.text());
         }
     }
     if listing.scenarios.is_empty() {

@@ -320,6 +320,7 @@ fn a_circuit_is_listed_with_what_drives_its_parts() {
     let memory = &connections["parts"][0];
     assert_eq!(memory["name"], "memory");
     assert_eq!(memory["circuit"], "pattern_memory");
+    assert_eq!(memory["source"], "JP3640909B2 10");
     assert_eq!(memory["parameters"]["AXIS"], 0);
     let half_period = &connections["parts"][1]["inputs"][0];
     let expected = serde_json::json!({
@@ -333,7 +334,11 @@ fn a_circuit_is_listed_with_what_drives_its_parts() {
     assert!(!text.contains("scenarios"), "{text}");
     // One without parts.
     let list = bench.json(&["list", "sync_stage"]);
-    assert!(list["circuits"][0].get("connections").is_none());
+    let connections = &list["circuits"][0]["connections"];
+    assert_eq!(connections["parts"], serde_json::json!([]));
+    assert_eq!(connections["registers"][0]["name"], "step");
+    let text = bench.succeed(&["list", "sync_stage"]);
+    assert!(text.ends_with("    out     step\n"), "{text}");
     let refused = bench.run(&["list", "sync"]);
     assert_eq!(refused.code, 2);
     assert!(
