@@ -94,7 +94,7 @@ pub fn mutate(arguments: &Arguments) -> Result<(), Failure> {
     let entries = entries(&arguments.circuits)?;
     let charts = match &arguments.charts {
         Some(path) => charts(path)?,
-        None => shipped()?,
+        None => shipped(NOTES)?,
     };
     let (notes, charts): (Vec<_>, Vec<_>) = charts.into_iter().unzip();
     let campaign = Campaign {
@@ -128,9 +128,16 @@ pub fn mutate(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The charts of the notes that ship, each with the note's name.
-fn shipped() -> Result<Vec<(String, Chart)>, Failure> {
+fn shipped(notes: &[(&str, &str)]) -> Result<Vec<(String, Chart)>, Failure> {
+    if notes.is_empty() {
+        return Err(Failure::Argument {
+            field: "--charts",
+            problem: "this program comes without notes, so the option is needed".into(),
+            allowed: CHARTS.to_owned(),
+        });
+    }
     let mut charts = Vec::new();
-    for &(name, text) in NOTES {
+    for &(name, text) in notes {
         charts.extend(of_note(name, text)?);
     }
     Ok(charts)
@@ -344,5 +351,21 @@ fn percent(part: usize, whole: usize) -> f64 {
     match whole {
         0 => 100.0,
         _ => 100.0 * part as f64 / whole as f64,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_notes_there_is_no_campaign() {
+        let error = shipped(&[]).expect_err("no charts").to_string();
+        assert!(
+            error.contains("--charts") && error.contains(CHARTS),
+            "{error}"
+        );
+        let charts = shipped(NOTES).unwrap_or_else(|error| panic!("{error}"));
+        assert!(charts.len() > 300);
     }
 }

@@ -1,4 +1,4 @@
-//! Notes whose timing charts ship with the program.
+//! Notes that ship with the program: those with timing charts, and the overviews of their folders.
 
 macro_rules! notes {
     ($($name:literal),* $(,)?) => {
@@ -6,8 +6,15 @@ macro_rules! notes {
     };
 }
 
-/// Notes with timing charts, by path: name and text.
-pub const NOTES: &[(&str, &str)] = notes![
+/// Notes by path: name and text. The program for browsers has none, to be small: its page hands it
+/// the notes as files.
+pub const NOTES: &[(&str, &str)] = match cfg!(target_family = "wasm") {
+    true => &[],
+    false => ALL,
+};
+
+const ALL: &[(&str, &str)] = notes![
+    "rtl_notes/arc_generator/README.md",
     "rtl_notes/arc_generator/angle_step.md",
     "rtl_notes/arc_generator/arc_generator.md",
     "rtl_notes/arc_generator/axis_terms.md",
@@ -21,6 +28,7 @@ pub const NOTES: &[(&str, &str)] = notes![
     "rtl_notes/arc_generator/rotation_row.md",
     "rtl_notes/arc_generator/sine_words.md",
     "rtl_notes/arc_generator/vector_row.md",
+    "rtl_notes/blocks/README.md",
     "rtl_notes/blocks/coefficient_control.md",
     "rtl_notes/blocks/cordic.md",
     "rtl_notes/blocks/cordic_state.md",
@@ -38,6 +46,7 @@ pub const NOTES: &[(&str, &str)] = notes![
     "rtl_notes/conventions/charts.md",
     "rtl_notes/conventions/memories.md",
     "rtl_notes/golden_model.md",
+    "rtl_notes/lead_angle/README.md",
     "rtl_notes/lead_angle/absolute_detector.md",
     "rtl_notes/lead_angle/comparator.md",
     "rtl_notes/lead_angle/compensator.md",
@@ -76,6 +85,7 @@ pub const NOTES: &[(&str, &str)] = notes![
     "rtl_notes/lead_angle/tracking_converter.md",
     "rtl_notes/lead_angle/tracking_loop.md",
     "rtl_notes/lead_angle/unwrapper.md",
+    "rtl_notes/linear_interpolator/README.md",
     "rtl_notes/linear_interpolator/accumulator.md",
     "rtl_notes/linear_interpolator/axis_switch.md",
     "rtl_notes/linear_interpolator/controller.md",
@@ -92,9 +102,11 @@ pub const NOTES: &[(&str, &str)] = notes![
     "rtl_notes/linear_interpolator/sequencer.md",
     "rtl_notes/linear_interpolator/target_data.md",
     "rtl_notes/linear_interpolator/trapezoid.md",
+    "rtl_notes/machine/README.md",
     "rtl_notes/machine/command_join.md",
     "rtl_notes/machine/enables.md",
     "rtl_notes/machine/machine.md",
+    "rtl_notes/pulse_interpolator/README.md",
     "rtl_notes/pulse_interpolator/address_sequencer.md",
     "rtl_notes/pulse_interpolator/axis.md",
     "rtl_notes/pulse_interpolator/command_port.md",
@@ -109,6 +121,7 @@ pub const NOTES: &[(&str, &str)] = notes![
     "rtl_notes/pulse_interpolator/sync_stage.md",
     "rtl_notes/pulse_interpolator/unit_law.md",
     "rtl_notes/pulse_interpolator/unit_time.md",
+    "rtl_notes/trajectory_controller/README.md",
     "rtl_notes/trajectory_controller/arc_angle.md",
     "rtl_notes/trajectory_controller/axis_row.md",
     "rtl_notes/trajectory_controller/controlled_axis.md",
@@ -132,13 +145,14 @@ pub const NOTES: &[(&str, &str)] = notes![
 #[cfg(test)]
 mod tests {
     use super::NOTES;
+    use std::collections::BTreeSet;
     use std::fs;
     use std::path::Path;
 
-    /// Adds the names of the notes below a folder that have charts.
-    fn add(folder: &str, names: &mut Vec<String>) {
+    /// Adds the notes of a folder that have charts, and its overview if there are any.
+    fn add(folder: &str, names: &mut BTreeSet<String>) {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
-        for entry in fs::read_dir(path).unwrap() {
+        for entry in fs::read_dir(&path).unwrap() {
             let entry = entry.unwrap();
             let name = format!("{folder}/{}", entry.file_name().to_str().unwrap());
             if entry.file_type().unwrap().is_dir() {
@@ -148,17 +162,20 @@ mod tests {
                     .unwrap()
                     .contains("```chart ")
             {
-                names.push(name);
+                names.insert(name);
+                // The index of all notes is for readers of the repository.
+                if folder != "rtl_notes" {
+                    names.insert(format!("{folder}/README.md"));
+                }
             }
         }
     }
 
     #[test]
     fn every_note_with_charts_ships() {
-        let mut names = Vec::new();
+        let mut names = BTreeSet::new();
         add("rtl_notes", &mut names);
-        names.sort();
         let shipped: Vec<_> = NOTES.iter().map(|(name, _)| *name).collect();
-        assert_eq!(shipped, names);
+        assert_eq!(shipped, names.iter().collect::<Vec<_>>());
     }
 }

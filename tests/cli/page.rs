@@ -18,7 +18,12 @@ fn start(page: &str) -> serde_json::Value {
 fn a_page_is_written_with_the_program_inside_and_beside_it() {
     let bench = Bench::with("p.wasm", WASM);
     let said = bench.succeed(&["page", "p.wasm", "--out", "o"]);
-    for file in ["o/motion-rtl.html", "o/index.html", "o/motion-rtl.wasm"] {
+    for file in [
+        "o/motion-rtl.html",
+        "o/index.html",
+        "o/motion-rtl.wasm",
+        "o/notes.json",
+    ] {
         assert!(said.contains(&format!("{file} (")), "{said}");
     }
     let whole = start(&bench.read("o/motion-rtl.html"));
@@ -26,6 +31,15 @@ fn a_page_is_written_with_the_program_inside_and_beside_it() {
     let beside = start(&bench.read("o/index.html"));
     assert_eq!(beside["program"]["beside"], "motion-rtl.wasm");
     assert_eq!(beside["scenarios"][0]["file"], "waves/machine.toml");
+    assert!(whole["notes"]["within"].as_str().is_some());
+    assert_eq!(beside["notes"]["beside"], "notes.json");
+    let notes: serde_json::Value = serde_json::from_str(&bench.read("o/notes.json")).unwrap();
+    let name = "rtl_notes/pulse_interpolator/unit_time.md";
+    let path = format!("{}/{name}", env!("CARGO_MANIFEST_DIR"));
+    assert_eq!(
+        notes[name].as_str(),
+        std::fs::read_to_string(path).ok().as_deref()
+    );
 }
 
 #[test]
@@ -68,7 +82,7 @@ fn the_page_of_a_run_has_its_summary_and_its_files() {
         assert!(said.contains(&format!("wrote {file} (")), "{said}");
     }
     let start = start(&bench.read("r.html"));
-    assert!(start["program"].is_null());
+    assert!(start["program"].is_null() && start["notes"].is_null());
     let run = &start["run"];
     assert_eq!(run["code"], 0);
     let json = bench.succeed(&[&words[..], &["--json"]].concat());

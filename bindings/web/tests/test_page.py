@@ -136,6 +136,57 @@ def test_a_proof_and_a_counterexample(opened):
     assert opened.locator("#pane-waves").is_visible()
 
 
+def test_the_note_of_a_part(opened):
+    opened.get_by_role("tab", name="Circuit").click()
+    opened.get_by_role("button", name="Show part unit_time, unit_time_register, JP3640909B2 ¶0016").click()
+    opened.get_by_role("heading", name="unit_time_register").wait_for()
+    note = opened.get_by_role("button", name="Note", exact=True)
+    note.focus()
+    opened.keyboard.press("Enter")
+    dialog = opened.get_by_role("dialog")
+    dialog.locator("#note-unit-time-register").wait_for()
+    assert dialog.locator(".note-path").inner_text() == "rtl_notes/pulse_interpolator/unit_time.md"
+    # Two circuits share this note: it is open where the part's begins.
+    assert dialog.locator(".note-text").evaluate("node => node.scrollTop") > 0
+    dialog.get_by_role("link", name="pulse interpolator").first.click()
+    assert dialog.locator(".note-path").inner_text() == "rtl_notes/pulse_interpolator/README.md"
+    dialog.get_by_role("button", name="Back").click()
+    assert dialog.locator(".note-path").inner_text().endswith("unit_time.md")
+    assert Axe().run(opened).violations_count == 0
+    opened.keyboard.press("Escape")
+    assert not dialog.is_visible()
+    assert note.evaluate("node => node === document.activeElement")
+
+
+def test_parts_are_shown_with_their_figure_numerals(opened):
+    opened.get_by_role("tab", name="Circuit").click()
+    opened.wait_for_selector(".diagram")
+    circuit = json.loads(program("list", "pulse_interpolator", "--json"))["circuits"][0]
+    rows = opened.get_by_role("region", name="Parts").locator("tbody tr").all()
+    shown = [row.locator("th, td").all_inner_texts() for row in rows]
+    parts = circuit["connections"]["parts"]
+    assert shown == [[part["name"], part["circuit"], part["source"]] for part in parts]
+    x = opened.get_by_role("button", name="Show part x, axis, JP3640909B2 10 + 20 + 40")
+    assert x.locator("text").all_text_contents() == ["x", "axis", "10 + 20 + 40"]
+    # A part without parts has registers.
+    opened.get_by_role("button", name="unit_time", exact=True).click()
+    assert "shadow" in opened.get_by_role("region", name="Registers").inner_text()
+
+
+def test_faults_are_found_by_the_charts_of_the_notes(opened):
+    opened.get_by_role("tab", name="Try a law").click()
+    opened.wait_for_selector("#law-circuit")
+    opened.select_option("#law-circuit", "sync_stage")
+    opened.get_by_role("button", name="Inject faults").click()
+    opened.wait_for_selector(".law-result table")
+    report = json.loads(program("mutate", "sync_stage", "--json"))["circuits"][0]
+    rows = opened.locator(".law-result tbody tr").all()
+    # The program for browsers may be compiled with paths from the root.
+    shown = [[re.sub("^/.*/src/", "src/", text) for text in row.locator("td").all_inner_texts()[:3]] for row in rows]
+    assert shown == [[found["fault"], found["fate"], found.get("by", "")] for found in report["suspects"]]
+    assert any(fate == "chart" for _, fate, _ in shown)
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_every_pane_is_accessible(opened, scheme):
     opened.emulate_media(color_scheme=scheme)
@@ -159,6 +210,7 @@ def test_the_page_of_a_run_shows_it_without_the_program(page, tmp_path):
     page.goto(report.as_uri())
     page.wait_for_selector('a[download="summary.json"]', state="attached")
     assert compared(summary(page)) == compared(expected)
+    assert page.get_by_role("button", name="Note", exact=True).count() == 0
 
 
 def test_another_site_is_refused(tmp_path):

@@ -3,6 +3,8 @@ import { CircuitPane } from "./circuit.js";
 import { append, clear, element } from "./dom.js";
 import { commandOf, fileWith, jobOf, linkOf, progressIn, wantedIn } from "./job.js";
 import { LawPane } from "./law.js";
+import { NoteDialog } from "./notedialog.js";
+import { NOTES_FOLDER } from "./notes.js";
 import { PathPane } from "./path.js";
 import { Playhead } from "./playhead.js";
 import { problemView } from "./problem.js";
@@ -11,7 +13,7 @@ import { readSave } from "./savefile.js";
 import { readSeries } from "./series.js";
 import { Cancelled } from "./runner.js";
 import { SettingsForm } from "./settings.js";
-import { finished, readStart, runnerOf } from "./start.js";
+import { finished, notesOf, readStart, runnerOf } from "./start.js";
 import { summaryView } from "./summary.js";
 import { givenIn } from "./toml.js";
 import { listsOfTables } from "./tomlvalue.js";
@@ -37,6 +39,7 @@ class Page {
   constructor() {
     this.start = readStart();
     this.runner = runnerOf(this.start.program);
+    this.notes = notesOf(this.start.notes);
     this.playhead = new Playhead();
     /** @type {Wanted} */
     this.wanted = { file: FIRST, changes: [] };
@@ -61,6 +64,7 @@ class Page {
     tabs.addEventListener("keydown", (event) => this.walk(event));
     this.path = new PathPane(this.pane("Path"), this.playhead);
     this.waves = new WavesPane(this.pane("Waves"), this.playhead);
+    const note = this.notes && new NoteDialog(this.notes);
     this.circuit = new CircuitPane(this.pane("Circuit"), {
       circuit: (name) => this.circuitOf(name),
       value: (path) => this.waves.valueAtCursor(path),
@@ -68,9 +72,10 @@ class Page {
         this.open("Waves");
         void this.waves.add(path);
       },
+      note: note && ((circuit) => void note.open(circuit)),
     });
     this.law = new LawPane(this.pane("Try a law"), {
-      run: (words, signal) => this.program().run({ words, files: [] }, {}, signal),
+      run: (words, signal) => this.prove(words, signal),
       counterexample: (result) => void this.counterexample(result),
     });
     this.playhead.addEventListener("change", () => this.circuit.update());
@@ -150,6 +155,17 @@ class Page {
   program() {
     if (!this.runner) throw new Error("this page has no program: it shows one run");
     return this.runner;
+  }
+
+  /**
+   * Runs a command of the pane of laws. Faults are looked for with the charts of the notes.
+   * @param {string[]} words
+   * @param {AbortSignal} signal
+   */
+  async prove(words, signal) {
+    if (words[0] !== "mutate" || !this.notes) return this.program().run({ words, files: [] }, {}, signal);
+    const files = await this.notes.files();
+    return this.program().run({ words: [...words, "--charts", NOTES_FOLDER], files }, {}, signal);
   }
 
   /** @param {string} text */

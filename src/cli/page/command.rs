@@ -1,5 +1,6 @@
 //! `page`: the page as files, for a server of static files or to be opened as a file.
 
+use super::notes;
 use super::{Program, with};
 use crate::cli::files::{Files, refused};
 use crate::cli::{Failure, print};
@@ -39,6 +40,7 @@ pub fn page(arguments: &Arguments) -> Result<(), Failure> {
     let mut files = Files::begin(&arguments.out, "motion-rtl")?;
     files.write("html", &with(Some(Program::within(&wasm)), None))?;
     files.write_as("index.html", &with(Some(Program::Beside(WASM)), None))?;
+    files.write_as(notes::FILE, &notes::json())?;
     let mut program = files.create("wasm")?;
     std::io::Write::write_all(&mut program, &wasm)
         .map_err(|error| refused("--out", &error, "a directory that can be written"))?;

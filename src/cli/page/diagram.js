@@ -1,7 +1,7 @@
 // Block diagram of a circuit: its parts as boxes, and which feeds which.
 
 /** @typedef {{ name: string, width: number, signed: boolean, about?: string, driver?: string }} Port */
-/** @typedef {{ name: string, circuit: string, inputs: Port[], outputs: Port[] }} Part */
+/** @typedef {{ name: string, circuit: string, source: string, inputs: Port[], outputs: Port[] }} Part */
 
 /**
  * A circuit as `list NAME --json` has it.
@@ -18,7 +18,7 @@
 /** Where a box stands: column and row, from 0. @typedef {{ name: string, column: number, row: number }} Placed */
 
 /** Sizes in pixels. */
-const BOX = { width: 132, height: 44, across: 58, down: 22, margin: 16 };
+const BOX = { width: 132, height: 60, across: 58, down: 22, margin: 16 };
 
 /**
  * The parts that feed each part, through nets and registers of the circuit too; `""` stands for the
@@ -117,34 +117,48 @@ export function diagram(circuit, enter) {
   }
   for (const box of boxes) {
     const part = circuit.connections.parts.find((one) => one.name === box.name);
-    picture.append(boxOf(box.name, part, x(box.column), y(box.row), enter));
+    const lines = part ? [part.name, part.circuit, numerals(part.source, circuit.source)] : [box.name === PORTS_OUT ? "ports out" : "ports in"];
+    picture.append(boxOf(lines, part, x(box.column), y(box.row), enter));
   }
   return picture;
 }
 
 /**
- * @param {string} name
+ * The figure numerals of a part: its source, without the patent if that is the circuit's too.
+ * @param {string} source
+ * @param {string} around source of the circuit around it
+ */
+export function numerals(source, around) {
+  const patent = /^[A-Z]{2}\w+/.exec(around)?.[0];
+  const rest = patent !== undefined && source.startsWith(patent) ? source.slice(patent.length) : "";
+  return rest.replace(/^,? /, "") || source;
+}
+
+/** Most characters of a line in a box. */
+const LINE = 19;
+
+/**
+ * @param {string[]} lines texts in the box, one or three
  * @param {Part | undefined} part
  * @param {number} x
  * @param {number} y
  * @param {(part: Part) => void} enter
  */
-function boxOf(name, part, x, y, enter) {
+function boxOf(lines, part, x, y, enter) {
   const group = drawn("g", { transform: `translate(${x} ${y})`, class: part ? "part" : "ports" });
   group.append(drawn("rect", { width: BOX.width, height: BOX.height, rx: 4 }));
-  const lines = part ? [part.name, part.circuit] : [name === PORTS_OUT ? "ports out" : "ports in"];
   for (const [row, line] of lines.entries()) {
-    const text = drawn("text", { x: BOX.width / 2, y: lines.length > 1 ? 18 + 16 * row : 27, class: `line-${row}` });
-    text.textContent = line.length > 19 ? `${line.slice(0, 18)}…` : line;
+    const text = drawn("text", { x: BOX.width / 2, y: BOX.height / 2 + 4 + 16 * (row - (lines.length - 1) / 2), class: `line-${row}` });
+    text.textContent = line.length > LINE ? `${line.slice(0, LINE - 1)}…` : line;
     group.append(text);
   }
   if (part) {
     const title = drawn("title", {});
-    title.textContent = `${part.name}: ${part.circuit}`;
+    title.textContent = `${part.name}: ${part.circuit}, ${part.source}`;
     group.append(title);
     group.setAttribute("tabindex", "0");
     group.setAttribute("role", "button");
-    group.setAttribute("aria-label", `Show part ${part.name}, ${part.circuit}`);
+    group.setAttribute("aria-label", `Show part ${part.name}, ${part.circuit}, ${part.source}`);
     group.addEventListener("click", () => enter(part));
     group.addEventListener("keydown", (event) => {
       if (/** @type {KeyboardEvent} */ (event).key === "Enter") enter(part);

@@ -2,6 +2,7 @@
 //! the one that serves it; without a program it shows one run.
 
 mod command;
+pub mod notes;
 mod run;
 
 pub use command::{Arguments, page};
@@ -11,6 +12,7 @@ use super::shipped::SHIPPED;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use miniz_oxide::deflate::compress_to_vec_zlib;
+use notes::Notes;
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -27,7 +29,8 @@ const STYLES: &[&str] = sources![
     "form.css",
     "path.css",
     "waves.css",
-    "circuit.css"
+    "circuit.css",
+    "note.css"
 ];
 
 /// Modules of the worker. Each stands after those that it imports.
@@ -45,6 +48,11 @@ const SCRIPTS: &[&str] = sources![
     "fst.js",
     "job.js",
     "law.js",
+    "inlines.js",
+    "notes.js",
+    "markdown.js",
+    "noteview.js",
+    "notedialog.js",
     "extremes.js",
     "layers.js",
     "palette.js",
@@ -103,8 +111,13 @@ pub enum Program<'a> {
 impl Program<'_> {
     /// WebAssembly in the page itself.
     pub fn within(wasm: &[u8]) -> Self {
-        Program::Within(BASE64_STANDARD.encode(compress_to_vec_zlib(wasm, BEST)))
+        Program::Within(packed(wasm))
     }
+}
+
+/// Returns base64 of a zlib stream.
+fn packed(bytes: &[u8]) -> String {
+    BASE64_STANDARD.encode(compress_to_vec_zlib(bytes, BEST))
 }
 
 /// A finished run.
@@ -126,6 +139,7 @@ pub struct Run {
 #[derive(Debug, Serialize)]
 struct Start<'a> {
     program: Option<Program<'a>>,
+    notes: Option<Notes>,
     scenarios: Vec<Scenario>,
     run: Option<Run>,
 }
@@ -145,6 +159,7 @@ pub fn with(program: Option<Program<'_>>, run: Option<Run>) -> String {
         text: shipped.text,
     });
     let start = Start {
+        notes: program.as_ref().and_then(Notes::beside),
         program,
         scenarios: scenarios.collect(),
         run,

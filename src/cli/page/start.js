@@ -1,4 +1,5 @@
 // Data inside the page, with which it starts: the program, the shipped scenarios, and a finished run.
+import { Notes } from "./notes.js";
 import { BrowserRunner, ServedRunner, fromBase64 } from "./runner.js";
 
 /** @typedef {import("./worker.js").Result} Result */
@@ -14,10 +15,16 @@ import { BrowserRunner, ServedRunner, fromBase64 } from "./runner.js";
  */
 
 /**
- * Data inside the page. The program is within the page (base64 of a zlib stream), beside it (an
- * address), served (where jobs are posted), or there is none.
+ * A part of the page: within it (base64 of a zlib stream), or beside it (an address).
+ * @typedef {{ within: string } | { beside: string }} Part
+ */
+
+/**
+ * Data inside the page. The program is a part of the page, served (where jobs are posted), or there
+ * is none. The page of a run has no notes.
  * @typedef {object} Start
- * @property {{ within: string } | { beside: string } | { served: string } | null} program
+ * @property {Part | { served: string } | null} program
+ * @property {Part | null} notes
  * @property {Scenario[]} scenarios
  * @property {{ words: string[], code: number, out: string, errors: string, files: [string, string][] } | null} run
  * @property {string} version
@@ -38,9 +45,21 @@ export function runnerOf(program) {
   // From a file, too, a worker may be made of a blob.
   const script = URL.createObjectURL(new Blob([textOf("worker")], { type: "text/javascript" }));
   return new BrowserRunner(script, async () => {
-    const bytes = "within" in program ? await unzipped(program.within) : await fetched(program.beside);
-    return WebAssembly.compile(bytes);
+    return WebAssembly.compile(await bytesOf(program));
   });
+}
+
+/**
+ * The notes of a page, if it has them. They are loaded when they are first asked for.
+ * @param {Start["notes"]} notes
+ */
+export function notesOf(notes) {
+  return notes ? new Notes(() => bytesOf(notes)) : undefined;
+}
+
+/** @param {Part} part */
+function bytesOf(part) {
+  return "within" in part ? unzipped(part.within) : fetched(part.beside);
 }
 
 /**

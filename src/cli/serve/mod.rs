@@ -2,7 +2,7 @@
 
 mod jobs;
 
-use super::page::{Program, with};
+use super::page::{Program, notes, with};
 use super::{Failure, print};
 use clap::{Args, value_parser};
 use jobs::{Asked, Jobs};
@@ -43,6 +43,7 @@ pub fn serve(arguments: &Arguments) -> Result<(), Failure> {
         origin: format!("http://127.0.0.1:{port}"),
         host: format!("127.0.0.1:{port}"),
         page: format!("/{secret}/"),
+        notes: format!("/{secret}/{}", notes::FILE),
         run: format!("/{secret}/run"),
         jobs: Jobs::new().map_err(refuse)?,
     };
@@ -63,6 +64,8 @@ struct Site {
     host: String,
     /// Path of the page.
     page: String,
+    /// Path of its notes.
+    notes: String,
     /// Path at which jobs are posted.
     run: String,
     jobs: Jobs,
@@ -78,6 +81,9 @@ impl Site {
         if path == self.page && *request.method() == Method::GET {
             let page = with(Some(Program::Served(&self.run)), None);
             return answer("text/html; charset=utf-8", page.into_bytes());
+        }
+        if path == self.notes && *request.method() == Method::GET {
+            return answer("application/json", notes::json().into_bytes());
         }
         let Some(rest) = path.strip_prefix(&self.run) else {
             return plain(StatusCode::NOT_FOUND, "there is nothing here");
