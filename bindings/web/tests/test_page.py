@@ -44,6 +44,7 @@ def test_a_file_opened_without_a_server(page, page_files):
     assert "exit code 0" in ended(page)
     assert summary(page)["circuit"] == "pulse_interpolator"
     assert (page_files / "motion-rtl.html").stat().st_size <= 6e6
+    assert page.evaluate("async () => (await window.motionRtl.notes.texts()).size") > 120
 
 
 def test_a_drawing_of_the_reader(opened, tmp_path):
@@ -141,6 +142,8 @@ def test_the_note_of_a_part(opened):
     opened.get_by_role("button", name="Show part unit_time, unit_time_register, JP3640909B2 ¶0016").click()
     opened.get_by_role("heading", name="unit_time_register").wait_for()
     note = opened.get_by_role("button", name="Note", exact=True)
+    loads = "performance.getEntriesByType('resource').filter(({ name }) => name.endsWith('/notes.json')).length"
+    assert opened.evaluate(loads) == 0
     note.focus()
     opened.keyboard.press("Enter")
     dialog = opened.get_by_role("dialog")
@@ -155,6 +158,7 @@ def test_the_note_of_a_part(opened):
     assert Axe().run(opened).violations_count == 0
     opened.keyboard.press("Escape")
     assert not dialog.is_visible()
+    assert opened.evaluate(loads) == 1
     assert note.evaluate("node => node === document.activeElement")
 
 
