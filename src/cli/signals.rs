@@ -3,7 +3,7 @@
 
 #[cfg(unix)]
 use {
-    super::equal::stop,
+    super::{equal, serve},
     motion_rtl::files::abandon,
     signal_hook::consts::{SIGHUP, SIGINT, SIGTERM},
     signal_hook::iterator::Signals,
@@ -37,7 +37,8 @@ pub fn watch() {
             let _ = ready.send(());
             if let Some(signal) = signals.ok().and_then(|mut all| all.forever().next()) {
                 abandon(|| {
-                    stop();
+                    equal::stop();
+                    serve::stop();
                     process::exit(ENDED + signal)
                 });
             }

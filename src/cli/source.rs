@@ -240,7 +240,8 @@ impl Source {
     /// Reads a table of the pulse interpolator that the scenario names.
     pub fn table(&self, path: &Path, clock_hz: u64) -> Result<Table, Fault> {
         match &self.origin {
-            Origin::Crate(shipped) if !self.loaded.overrides("pattern") => {
+            // A path of the command line may be that of a file.
+            Origin::Crate(shipped) if !(self.loaded.overrides("pattern") && path.exists()) => {
                 shipped.table(path, clock_hz)
             }
             _ => read::read_path(path, clock_hz),

@@ -86,6 +86,7 @@ def page(browser):
     """A page without a document; the test fails if anything is said on its console."""
     context = browser.new_context(viewport={"width": 1400, "height": 900}, accept_downloads=True)
     page = context.new_page()
+    page.set_default_timeout(120_000)
     said = []
     page.on("console", lambda message: said.append(f"{message.type}: {message.text}"))
     page.on("pageerror", lambda error: said.append(f"error: {error}"))

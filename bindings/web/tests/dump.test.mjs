@@ -2,7 +2,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { ChangeColumn, UNKNOWN_X } from "../../../src/cli/page/column.js";
 import { Dump, edge, firstAt, indexAt, valueAt } from "../../../src/cli/page/dump.js";
-import { Extremes, collectColumns, fixedPointText, pixelColumns, shownNumbers, valueText } from "../../../src/cli/page/valueformat.js";
+import { Extremes } from "../../../src/cli/page/extremes.js";
+import { collectColumns, fixedPointText, pixelColumns, shownNumbers, valueText } from "../../../src/cli/page/valueformat.js";
 import { ROW_HEIGHT, WaveRows, scopeRows, signalRow } from "../../../src/cli/page/waverows.js";
 import { TimeWindow, roundStep, secondsText } from "../../../src/cli/page/waveview.js";
 

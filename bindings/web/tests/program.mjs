@@ -35,14 +35,24 @@ export function run(...words) {
 }
 
 /**
- * Runs a scenario without waves; returns its summary as text and its series.
+ * Runs a scenario without waves; returns its summary as text and its series in CSV.
  * @param {string} name
  * @param {string[]} options
  */
 export function runScenario(name, ...options) {
+  return runScenarioAs("csv", name, ...options);
+}
+
+/**
+ * Runs a scenario without waves; returns its summary as text and its series.
+ * @param {"csv" | "npy"} format
+ * @param {string} name
+ * @param {string[]} options
+ */
+export function runScenarioAs(format, name, ...options) {
   const out = mkdtempSync(join(tmpdir(), "motion-rtl-"));
   try {
-    const series = join(out, "series.csv");
+    const series = join(out, `series.${format}`);
     const result = run("run", `${name}.toml`, "--json", "--no-vcd", "--out", out, "--series", series, ...options);
     return { ...result, series: result.code === 2 ? new Uint8Array() : new Uint8Array(readFileSync(series)) };
   } finally {

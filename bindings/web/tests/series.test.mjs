@@ -1,11 +1,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { countUpTo, initialMagnification, readSeries } from "../../../src/cli/page/series.js";
-import { RangeExtremes } from "../../../src/cli/page/extremes.js";
+import { Extremes } from "../../../src/cli/page/extremes.js";
+import { LineMask } from "../../../src/cli/page/linemask.js";
 import { Polyline } from "../../../src/cli/page/reduction.js";
 import { displaced, pathViews } from "../../../src/cli/page/pathviews.js";
 import { Playhead } from "../../../src/cli/page/playhead.js";
-import { runScenario, scenarios } from "./program.mjs";
+import { readNpy } from "../../../src/cli/page/npy.js";
+import { runScenario, runScenarioAs, scenarios } from "./program.mjs";
 
 /** Takes the points that are drawn, as lines of pixels. */
 class Recorder {
@@ -37,6 +39,21 @@ function pixelsTo(lines, [right, down]) {
 }
 
 const HEAD = "tick,time_s,x_commanded_mm,x_actual_mm,x_error_mm";
+
+test("a series of NumPy is that of the CSV", () => {
+  const csv = readSeries(runScenario("weld").series);
+  const bytes = runScenarioAs("npy", "weld").series;
+  const npy = readNpy(bytes);
+  assert.deepEqual(npy.axes.map(({ name, unit }) => [name, unit]), csv.axes.map(({ name, unit }) => [name, unit]));
+  const columns = (series) => [series.ticks, series.times, ...series.axes.flatMap(({ commanded, actual, error }) => [commanded, actual, error])];
+  const pairs = columns(npy).map((column, k) => [column, columns(csv)[k]]);
+  for (const [exact, printed] of pairs) {
+    assert.equal(exact.length, printed.length);
+    exact.forEach((value, row) => assert.ok(Math.abs(value - printed[row]) < 1e-6 * Math.max(1, Math.abs(value))));
+  }
+  assert.throws(() => readNpy(bytes.subarray(1)), /NumPy/);
+  assert.throws(() => readNpy(bytes.subarray(0, -8)), /as long as/);
+});
 
 /** Options that leave out the systems with which a circuit is compared; a machine has none. */
 function alone(name) {
@@ -156,7 +173,7 @@ test("a line is drawn with few points and misses none by half a pixel", () => {
   for (const scale of [0.1, 0.7, 1]) {
     const view = { x0: 0, y0: 0, scaleX: scale, scaleY: scale, width: 1000, height: 800 };
     const recorder = new Recorder();
-    new Polyline(xs, ys).stroke(/** @type {any} */ (recorder), view, Infinity);
+    new Polyline(xs, ys).stroke(/** @type {any} */ (recorder), view);
     const drawn = recorder.lines.reduce((sum, line) => sum + line.length, 0);
     assert.ok(drawn < count / 3, `${drawn} points at ${scale}`);
     for (let k = 0; k < count; k += 7) {
@@ -167,20 +184,45 @@ test("a line is drawn with few points and misses none by half a pixel", () => {
   }
 });
 
-test("of a line only what the window shows is drawn, no more points than wanted", () => {
+test("of a line only what the window shows is drawn, and its effort is known", () => {
   const xs = Float64Array.from({ length: 100_000 }, (_, k) => k / 10);
   const ys = Float64Array.from({ length: 100_000 }, (_, k) => 50 * Math.sin(k / 3));
   const line = new Polyline(xs, ys);
-  const drawn = (x0, most) => {
+  const drawn = (x0) => {
     const recorder = new Recorder();
-    line.stroke(/** @type {any} */ (recorder), { x0, y0: 0, scaleX: 10, scaleY: 10, width: 1000, height: 800 }, most);
+    const view = { x0, y0: 0, scaleX: 10, scaleY: 10, width: 1000, height: 800 };
+    line.stroke(/** @type {any} */ (recorder), view);
+    const effort = recorder.lines.flatMap((each) => each.slice(1).map(([x, y], k) => 8 + Math.abs(x - each[k][0]) + Math.abs(y - each[k][1])))
+      .reduce((sum, part) => sum + part, 0);
+    // The scale of the points is the next power of two.
+    assert.ok(line.effort(view) >= effort && line.effort(view) <= 1.7 * effort, `${line.effort(view)} for ${effort}`);
     return recorder.lines.flat();
   };
-  const points = drawn(5000, Infinity);
+  const points = drawn(5000);
   assert.ok(points.length > 300 && points.length < 3000, `${points.length}`);
   assert.ok(Math.min(...points.map(([right]) => right)) <= 0 && Math.max(...points.map(([right]) => right)) >= 1000);
-  assert.equal(drawn(-5000, Infinity).length, 0);
-  assert.ok(drawn(5000, 300).length <= 400);
+  assert.equal(drawn(-5000).length, 0);
+});
+
+test("a mask covers the pixels of a line as far as it is in them", () => {
+  const mask = new LineMask(60, 40, 3);
+  const ends = [[5.5, 10.5, 50.5, 10.5], [20.2, 35.7, 33.1, 2.4], [-30, 20, 90, 38], [40, 30, 40, 30]];
+  for (const [x0, y0, x1, y1] of ends) mask.line(x0, y0, x1, y1);
+  const lines = ends.map(([x0, y0, x1, y1]) => [[x0, y0], [x1, y1]]);
+  for (let down = 0; down < 40; down += 1) {
+    for (let right = 0; right < 60; right += 1) {
+      const distance = pixelsTo(lines, [right + 0.5, down + 0.5]);
+      const covered = mask.coverage[60 * down + right];
+      if (distance < 0.9) assert.equal(covered, 255, `${right}, ${down}`);
+      if (distance > 4.2) assert.equal(covered, 0, `${right}, ${down}`);
+    }
+  }
+  // The line is three pixels wide.
+  assert.deepEqual([8, 9, 11, 12].map((down) => mask.coverage[60 * down + 10]), [0, 255, 255, 0]);
+  const pixels = new Uint8ClampedArray(4 * 60 * 40);
+  mask.over(pixels, [10, 20, 30]);
+  assert.deepEqual([...pixels.subarray(4 * (60 * 10 + 10), 4 * (60 * 10 + 10) + 4)], [10, 20, 30, 255]);
+  assert.deepEqual([...pixels.subarray(0, 4)], [0, 0, 0, 0]);
 });
 
 test("the nearest row is found, and of two passes the one next to the play head", () => {
@@ -197,21 +239,20 @@ test("the nearest row is found, and of two passes the one next to the play head"
 test("extremes of ranges are those of their rows", () => {
   const values = Float64Array.from({ length: 1000 }, (_, k) => Math.sin(k * k));
   values[500] = NaN;
-  const extremes = new RangeExtremes(values);
+  const extremes = new Extremes(values);
   for (const [from, to] of [[0, 1000], [0, 1], [63, 65], [64, 128], [1, 999], [499, 502], [130, 131], [700, 1000], [5, 5]]) {
     const part = [...values.slice(from, to)].filter((value) => !Number.isNaN(value));
-    extremes.find(from, to);
-    assert.deepEqual([extremes.least, extremes.greatest], [Math.min(...part), Math.max(...part)], `${from} to ${to}`);
+    assert.deepEqual(extremes.between(from, to), [Math.min(...part), Math.max(...part)], `${from} to ${to}`);
   }
 });
 
 test("extremes are found at both ends of any range", () => {
   const values = Float64Array.from({ length: 300 }, (_, k) => k);
-  const extremes = new RangeExtremes(values);
+  const extremes = new Extremes(values);
   for (let from = 0; from < 300; from += 3) {
     for (let to = from + 1; to <= 300; to += 1) {
-      extremes.find(from, to);
-      if (extremes.least !== from || extremes.greatest !== to - 1) assert.fail(`${from} to ${to}`);
+      const [least, greatest] = extremes.between(from, to);
+      if (least !== from || greatest !== to - 1) assert.fail(`${from} to ${to}`);
     }
   }
 });

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { changeOf, faultIn, sameValue, settingNamed, settingsOf, shownText } from "../../../src/cli/page/settingkeys.js";
+import { changeOf, faultIn, fromDirectory, sameValue, settingNamed, settingsOf, shownText } from "../../../src/cli/page/settingkeys.js";
 import { readProblem } from "../../../src/cli/page/problem.js";
 import { givenIn } from "../../../src/cli/page/toml.js";
 import { listsOfTables, readTomlValue, tomlText } from "../../../src/cli/page/tomlvalue.js";
@@ -188,4 +188,16 @@ test("problems are read from JSON and from text", () => {
   assert.equal(readProblem(plain.out, plain.errors).message, problem.message);
   assert.equal(readProblem("", "\u001b[31merror: \u001b[0mno\n").message, "no");
   assert.notEqual(readProblem("", "").message, "");
+});
+
+test("paths of a scenario are those from the working directory, and nothing else changes", () => {
+  const given = { ...givenBy("patterns"), input: '"a.ngc"', "program.subroutine_path": '["subs", "/usr/subs"]' };
+  const placed = fromDirectory(given, printed.get("pulse_interpolator"), "waves/patterns.toml");
+  assert.equal(placed.input, '"waves/a.ngc"');
+  assert.equal(placed["program.subroutine_path"], '["waves/subs", "/usr/subs"]');
+  assert.equal(placed.pattern, given.pattern.replaceAll(/table = "/g, 'table = "waves/'));
+  assert.notEqual(placed.pattern, given.pattern);
+  const others = Object.keys(given).filter((key) => given[key] !== placed[key]);
+  assert.deepEqual(others.sort(), ["input", "pattern", "program.subroutine_path"]);
+  assert.deepEqual(fromDirectory(given, printed.get("pulse_interpolator"), "mine.toml"), given);
 });

@@ -1,8 +1,12 @@
 """What a reader does with the page, and that it shows what the program prints and writes."""
 
 import json
+import os
+import pathlib
 import re
+import signal
 import subprocess
+import time
 import urllib.error
 import urllib.request
 
@@ -22,20 +26,67 @@ def compared(found):
 def test_every_shipped_scenario_has_the_summary_of_the_program(page, address, tmp_path, scenario):
     page.goto(f"{address}#run={scenario}")
     assert "exit code 0" in ended(page, 400)
-    expected = json.loads(program("run", scenario, "--json", "--no-vcd", "--out", tmp_path))
+    expected = json.loads(program("run", scenario.name, "--json", "--no-vcd", "--out", "out", cwd=tmp_path))
     assert compared(summary(page)) == compared(expected)
 
 
 def test_the_first_run_is_there_soon(page, address):
-    page.goto(address)
-    paint = page.evaluate(
-        """() => new Promise(resolve => new PerformanceObserver((list) =>
-            resolve(list.getEntries()[0].startTime)).observe({type: "paint", buffered: true}))"""
-    )
-    assert paint < 1000
-    ended(page)
-    assert page.evaluate("performance.now()") < 8000
-    assert page.evaluate("performance.memory.usedJSHeapSize") < 300e6
+    limit = 3000 if "index.html" not in address else 8000
+    times = []
+    # Others use the machine, too: the least of three loads counts.
+    for _ in range(3):
+        page.goto("about:blank")
+        page.goto(address)
+        paint = page.evaluate(
+            """() => new Promise(resolve => new PerformanceObserver((list) =>
+                resolve(list.getEntries()[0].startTime)).observe({type: "paint", buffered: true}))"""
+        )
+        ended(page)
+        times.append((page.evaluate("performance.now()"), paint))
+        if times[-1][0] < limit and paint < 1000:
+            return
+    raise AssertionError(f"run and paint in ms: {times}")
+
+
+def test_a_run_fits_into_the_memory(browser, opened):
+    session = browser.new_browser_cdp_session()
+    processes = session.send("SystemInfo.getProcessInfo")["processInfo"]
+    session.detach()
+    # Shared pages count in part. The page has one of these processes, with its workers.
+    used = [memory(process["id"]) for process in processes if process["type"] == "renderer"]
+    assert max(used) < 300e6
+
+
+def memory(pid):
+    """Memory of a process in bytes; what it shares with others counts in part."""
+    rows = pathlib.Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines()
+    return next(1024 * int(row.split()[1]) for row in rows if row.startswith("Pss:"))
+
+
+REACHABLE = """
+() => [...document.querySelectorAll("a[href], button, input, select, textarea, summary, [tabindex='0']")]
+  .filter((node) => node.checkVisibility({ visibilityProperty: true }) && !node.disabled)
+  .filter((node) => {
+    node.scrollIntoView({ block: "center", inline: "center" });
+    const box = node.getBoundingClientRect();
+    // A region may be higher than the window.
+    const [right, down] = [box.left + Math.min(box.width / 2, 20), Math.max(0, box.top) + Math.min(box.height / 2, 20)];
+    const hit = document.elementFromPoint(right, down);
+    return box.width === 0 || box.left < -1 || !hit || !(node.contains(hit) || hit.contains(node));
+  })
+  .map((node) => `${node.outerHTML.slice(0, 120)}`)
+"""
+
+
+@pytest.mark.parametrize("pane", ["Path", "Waves", "Circuit", "Try a law", "Summary"])
+def test_a_narrow_window_is_not_scrolled_sideways(opened, pane):
+    opened.set_viewport_size({"width": 400, "height": 800})
+    opened.get_by_role("tab", name=pane).click()
+    opened.locator("details:not(.waves-keys)").evaluate_all("nodes => nodes.forEach((node) => { node.open = true })")
+    opened.wait_for_timeout(300)
+    assert opened.evaluate("document.documentElement.scrollWidth") <= 400
+    assert opened.evaluate(REACHABLE) == []
+    assert opened.evaluate("document.documentElement.scrollLeft") == 0
 
 
 @needs_wasm
@@ -79,6 +130,57 @@ def test_a_setting_is_refused_at_its_field(opened):
     opened.reload()
     opened.wait_for_selector(".problem pre")
     assert "clock_hz" in opened.locator(".problem").inner_text()
+
+
+def changed(page, key, value):
+    """Changes a setting as a reader does."""
+    page.locator("details.more").evaluate("node => { node.open = true }")
+    control = page.locator(f"#setting-{key}")
+    control.wait_for()
+    if control.evaluate("node => node.tagName") == "SELECT":
+        control.select_option(value)
+    else:
+        control.fill(value)
+
+
+def test_another_circuit_has_its_own_settings(opened):
+    changed(opened, "clock_hz", "2000000")
+    changed(opened, "circuit", "arc_generator")
+    keys = json.loads(program("keys", "arc_generator", "--json"))["scenario"]
+    own = next(row["key"] for row in keys if row["key"].startswith("mechanism.") and row["kind"] == "number")
+    opened.wait_for_selector(f"#setting-{own.replace('.', '-')}", state="attached")
+    assert opened.locator("#setting-circuit").input_value() == "arc_generator"
+    assert opened.locator("#setting-clock_hz").input_value() == "2000000"
+    opened.get_by_role("button", name="Run", exact=True).click()
+    opened.wait_for_function("() => /circuit=.?arc_generator/.test(document.querySelector('.status').textContent)")
+
+
+def test_tables_of_a_scenario_are_found_after_they_were_edited(page, address, tmp_path):
+    page.goto(f"{address}#run=waves/patterns.toml")
+    ended(page)
+    tables = page.locator("#setting-pattern")
+    tables.wait_for(state="attached")
+    edited = tables.input_value().replace('"3/2"', '"2"')
+    assert '"waves/ring.csv"' in edited and '"2"' in edited
+    changed(page, "pattern", edited)
+    page.get_by_role("button", name="Run", exact=True).click()
+    page.wait_for_function("() => document.querySelector('.status').textContent.includes('pattern')")
+    assert "exit code 0" in ended(page)
+    change = "pattern=" + edited.replace("\n", " ")
+    expected = json.loads(program("run", "waves/patterns.toml", "--set", change, "--json", "--no-vcd", "--out", tmp_path))
+    assert compared(summary(page)) == compared(expected)
+
+
+def test_a_scenario_with_the_file_that_it_names(opened, tmp_path):
+    scenario, table = tmp_path / "mine.toml", tmp_path / "ring.csv"
+    text = (CHECKOUT / "waves/patterns.toml").read_text()
+    scenario.write_text(text.replace('"stroke.csv"', '"ring.csv"'))
+    table.write_bytes((CHECKOUT / "waves/ring.csv").read_bytes())
+    opened.set_input_files("#file", [table, scenario])
+    opened.wait_for_function("() => document.querySelector('.status').textContent.includes('mine.toml')")
+    assert "exit code 0" in ended(opened)
+    expected = json.loads(program("run", scenario.name, "--json", "--no-vcd", "--out", "out", cwd=tmp_path))
+    assert compared(summary(opened)) == compared(expected)
 
 
 def test_a_value_at_the_play_head_is_that_of_the_vcd(opened, tmp_path):
@@ -207,14 +309,17 @@ def test_tabs_by_keys(opened):
     assert opened.locator("#pane-waves").is_visible()
 
 
-def test_the_page_of_a_run_shows_it_without_the_program(page, tmp_path):
+@pytest.mark.parametrize("series", ["csv", "npy"])
+def test_the_page_of_a_run_shows_it_without_the_program(page, tmp_path, series):
     report = tmp_path / "report.html"
     words = ["run", "waves/weld.toml", "--json", "--out", tmp_path, "--html", report]
+    words += ["--series", tmp_path / f"path.{series}"]
     expected = json.loads(program(*words))
     page.goto(report.as_uri())
     page.wait_for_selector('a[download="summary.json"]', state="attached")
     assert compared(summary(page)) == compared(expected)
     assert page.get_by_role("button", name="Note", exact=True).count() == 0
+    assert page.locator(".path-canvas").is_visible()
 
 
 def test_another_site_is_refused(tmp_path):
@@ -231,3 +336,63 @@ def test_another_site_is_refused(tmp_path):
                 statuses.append(error.code)
         server.terminate()
     assert statuses == [200, 403, 403]
+
+
+def asked(address, **more):
+    """Answer of a served page as JSON."""
+    with urllib.request.urlopen(urllib.request.Request(address, **more)) as answer:
+        return json.loads(answer.read())
+
+
+def begun(address, *words):
+    """Begins a job; returns its address."""
+    body = json.dumps({"words": words, "files": []}).encode()
+    return f"{address}run/{asked(f'{address}run', data=body, method='POST')['id']}"
+
+
+def until(found, seconds=60):
+    """Waits for something; returns it."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if value := found():
+            return value
+        time.sleep(0.05)
+    raise AssertionError("not in time")
+
+
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGINT", "SIGHUP"])
+def test_a_signal_ends_jobs_and_removes_their_directories(tmp_path, name):
+    words = [PROGRAM, "serve", "--port", str(free_port())]
+    environment = os.environ | {"TMPDIR": str(tmp_path)}
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment) as server:
+        begun(server.stdout.readline().strip(), "run", "waves/feed.toml", "--out", "out")
+        job = until(lambda: list(tmp_path.glob("motion-rtl-*/work/out/.*")))[0]
+        # A child is that of the thread that has begun it.
+        tasks = pathlib.Path(f"/proc/{server.pid}/task").glob("*/children")
+        child = "".join(task.read_text() for task in tasks).split()
+        assert len(child) == 1 and job.exists()
+        server.send_signal(getattr(signal, name))
+        assert server.wait(30) == 128 + getattr(signal, name)
+    assert list(tmp_path.iterdir()) == []
+    assert not pathlib.Path(f"/proc/{child[0]}").exists()
+
+
+def test_the_series_so_far_is_read_in_parts():
+    words = [PROGRAM, "serve", "--port", str(free_port())]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as server:
+        job = begun(
+            server.stdout.readline().strip(),
+            "run", "waves/feed.toml", "--no-vcd", "--out", "out", "--series", "out/path.csv", "--series-every", "1",
+        )
+        series = ""
+        for _ in range(3):
+            part = until(lambda: asked(f"{job}?from=0&series={len(series)}")["series"])
+            assert part.endswith("\n")
+            series += part
+        assert asked(f"{job}?from=0")["series"] == ""
+        asked_to_end = urllib.request.Request(job, method="DELETE")
+        urllib.request.urlopen(asked_to_end).close()
+        server.terminate()
+    head, *rows = series.splitlines()
+    assert head.startswith("tick,time_s,")
+    assert [int(row.split(",")[0]) for row in rows] == list(range(len(rows)))

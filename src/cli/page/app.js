@@ -1,10 +1,12 @@
 // The page: chooses what runs, runs it, and hands the result to the panes.
 import { CircuitPane } from "./circuit.js";
 import { append, clear, element } from "./dom.js";
+import { downloadLink, downloadsView } from "./downloads.js";
 import { commandOf, fileWith, jobOf, linkOf, progressIn, wantedIn } from "./job.js";
 import { LawPane } from "./law.js";
 import { NoteDialog } from "./notedialog.js";
 import { NOTES_FOLDER } from "./notes.js";
+import { readNpy } from "./npy.js";
 import { PathPane } from "./path.js";
 import { Playhead } from "./playhead.js";
 import { problemView } from "./problem.js";
@@ -12,9 +14,11 @@ import { readFst } from "./fst.js";
 import { readSave } from "./savefile.js";
 import { readSeries } from "./series.js";
 import { Cancelled } from "./runner.js";
+import { fromDirectory } from "./settingkeys.js";
 import { SettingsForm } from "./settings.js";
 import { finished, notesOf, readStart, runnerOf } from "./start.js";
 import { summaryView } from "./summary.js";
+import { Tabs } from "./tabs.js";
 import { givenIn } from "./toml.js";
 import { listsOfTables } from "./tomlvalue.js";
 import { readVcd } from "./vcd.js";
@@ -45,23 +49,12 @@ class Page {
     this.wanted = { file: FIRST, changes: [] };
     /** @type {AbortController | undefined} */
     this.running = undefined;
-    /** @type {Map<string, HTMLElement>} */
-    this.panes = new Map();
+    /** Time from which the path so far is shown again, in ms. */
+    this.sofarFrom = 0;
     /** @type {Map<string, Promise<any>>} */
     this.listed = new Map();
-    const tabs = element("div", { role: "tablist", "aria-label": "Panes", class: "tabs" });
-    const centre = element("main", { class: "panes" }, tabs);
-    for (const name of PANES) {
-      const id = name.toLowerCase().replaceAll(" ", "-");
-      const pane = element("section", { role: "tabpanel", id: `pane-${id}`, "aria-labelledby": `tab-${id}`, class: `pane pane-${id}`, hidden: true });
-      // A page of one run has no program.
-      const gone = !this.runner && RUNNING.includes(name);
-      const tab = element("button", { type: "button", role: "tab", hidden: gone, id: `tab-${id}`, "aria-controls": `pane-${id}`, onclick: () => this.open(name) }, name);
-      tabs.append(tab);
-      centre.append(pane);
-      this.panes.set(name, pane);
-    }
-    tabs.addEventListener("keydown", (event) => this.walk(event));
+    // A page of one run has no program.
+    this.tabs = new Tabs(PANES.filter((name) => this.runner || !RUNNING.includes(name)));
     this.path = new PathPane(this.pane("Path"), this.playhead);
     this.waves = new WavesPane(this.pane("Waves"), this.playhead);
     const note = this.notes && new NoteDialog(this.notes);
@@ -69,7 +62,7 @@ class Page {
       circuit: (name) => this.circuitOf(name),
       value: (path) => this.waves.valueAtCursor(path),
       show: (path) => {
-        this.open("Waves");
+        this.tabs.open("Waves");
         void this.waves.add(path);
       },
       note: note && ((circuit) => void note.open(circuit)),
@@ -90,9 +83,9 @@ class Page {
         element("p", {}, "Five motion-control patents as cycle-accurate circuits"),
         element("button", { type: "button", onclick: () => this.toggleTheme() }, "Light or dark"),
       ),
-      element("div", { class: "layout" }, this.side(), centre),
+      element("div", { class: "layout" }, this.side(), this.tabs.node),
     );
-    this.open("Path");
+    this.tabs.open("Path");
   }
 
   /** The column of the scenario, the settings and the run. */
@@ -101,7 +94,7 @@ class Page {
     const options = scenarios.map(({ file, about }) => element("option", { value: file, title: about }, file.replace(/^waves\/|\.toml$/g, "")));
     this.choice = element("select", { id: "scenario", onchange: () => void this.choose({ file: this.choice?.value ?? FIRST, changes: [] }) }, options);
     this.about = element("p", { class: "faint" });
-    const file = element("input", { id: "file", type: "file", accept: ".toml,.hpgl,.plt,.ngc,.gcode,.nc,.csv", onchange: () => void this.take(file.files?.[0]) });
+    const file = element("input", { id: "file", type: "file", multiple: true, accept: ".toml,.hpgl,.plt,.ngc,.gcode,.nc,.csv", onchange: () => void this.take([...(file.files ?? [])]) });
     this.on = element("select", { id: "on", onchange: () => void this.choose({ ...this.wanted, circuit: this.on?.value, changes: [] }) },
       CIRCUITS.map((name) => element("option", { value: name }, name)));
     this.onRow = element("div", { class: "field", hidden: true }, element("label", { for: "on" }, "Circuit"), this.on);
@@ -111,6 +104,7 @@ class Page {
     this.problem = element("div", { class: "problem", role: "alert" });
     const settings = element("div", { class: "settings" });
     this.settings = new SettingsForm(settings);
+    this.settings.addEventListener("change", () => this.settingChanged());
     this.files = element("div", { class: "files" });
     if (!this.runner) return element("aside", { class: "side", "aria-label": "Run" }, this.status, this.problem, this.files);
     const side = element(
@@ -118,7 +112,7 @@ class Page {
       { class: "side", "aria-label": "Scenario and settings" },
       element("div", { class: "field" }, element("label", { for: "scenario" }, "Scenario"), this.choice),
       this.about,
-      element("div", { class: "field" }, element("label", { for: "file" }, "Or a drawing, part program or scenario of yours"), file),
+      element("div", { class: "field" }, element("label", { for: "file" }, "Or a drawing, part program or scenario of yours, with its files"), file),
       this.onRow,
       element("div", { class: "buttons" }, this.go, this.stop),
       this.bar, this.status, this.problem, this.files,
@@ -127,7 +121,7 @@ class Page {
     document.addEventListener("dragover", (event) => event.preventDefault());
     document.addEventListener("drop", (event) => {
       event.preventDefault();
-      void this.take(event.dataTransfer?.files[0]);
+      void this.take([...(event.dataTransfer?.files ?? [])]);
     });
     return side;
   }
@@ -149,7 +143,7 @@ class Page {
 
   /** @param {string} name */
   pane(name) {
-    return /** @type {HTMLElement} */ (this.panes.get(name));
+    return this.tabs.pane(name);
   }
 
   program() {
@@ -173,29 +167,6 @@ class Page {
     if (this.status) this.status.textContent = text;
   }
 
-  /** @param {string} name */
-  open(name) {
-    for (const [other, pane] of this.panes) {
-      pane.hidden = other !== name;
-      const tab = document.getElementById(pane.getAttribute("aria-labelledby") ?? "");
-      tab?.setAttribute("aria-selected", String(other === name));
-      tab?.setAttribute("tabindex", other === name ? "0" : "-1");
-    }
-    // A pane that was hidden had no size.
-    window.dispatchEvent(new Event("resize"));
-  }
-
-  /** Arrow keys go from tab to tab. @param {KeyboardEvent} event */
-  walk(event) {
-    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-    if (step === undefined) return;
-    const names = this.runner ? PANES : PANES.filter((name) => !RUNNING.includes(name));
-    const open = names.findIndex((name) => !this.pane(name).hidden);
-    const next = names[(open + step + names.length) % names.length];
-    this.open(next);
-    document.getElementById(this.pane(next).getAttribute("aria-labelledby") ?? "")?.focus();
-  }
-
   toggleTheme() {
     const dark = matchMedia("(prefers-color-scheme: dark)").matches;
     const now = document.documentElement.dataset.theme ?? (dark ? "dark" : "light");
@@ -205,14 +176,15 @@ class Page {
   }
 
   /**
-   * Takes a file of the reader's.
-   * @param {File | undefined} file
+   * Takes files of the reader's: a scenario with the files that it names, or one to be run.
+   * @param {File[]} files
    */
-  async take(file) {
-    if (!file) return;
-    const bytes = new Uint8Array(await file.arrayBuffer());
-    const circuit = file.name.endsWith(".toml") ? undefined : this.on?.value;
-    await this.choose({ file: file.name, bytes, circuit, changes: [] });
+  async take(files) {
+    const main = files.find(({ name }) => name.endsWith(".toml")) ?? files[0];
+    if (!main) return;
+    const given = await Promise.all(files.map(async (file) => /** @type {[string, Uint8Array<ArrayBuffer>]} */ ([file.name, new Uint8Array(await file.arrayBuffer())])));
+    const circuit = main.name.endsWith(".toml") ? undefined : this.on?.value;
+    await this.choose({ file: main.name, given, circuit, changes: [] });
   }
 
   /**
@@ -223,14 +195,34 @@ class Page {
     this.wanted = wanted;
     const scenario = this.start.scenarios.find(({ file }) => file === wanted.file);
     if (this.choice) this.choice.value = scenario?.file ?? "";
-    if (this.about) this.about.textContent = wanted.bytes ? wanted.file : (scenario?.about ?? "");
+    if (this.about) this.about.textContent = wanted.given ? wanted.file : (scenario?.about ?? "");
     if (this.onRow) this.onRow.hidden = wanted.circuit === undefined;
-    const text = wanted.bytes && !wanted.circuit ? new TextDecoder().decode(wanted.bytes) : (scenario?.text ?? "");
-    const given = { ...givenIn(text), ...listsOfTables(text) };
-    const circuit = wanted.circuit ?? given.circuit?.replaceAll('"', "") ?? "pulse_interpolator";
+    const own = wanted.circuit ? undefined : wanted.given?.find(([name]) => name === wanted.file)?.[1];
+    const text = wanted.given ? new TextDecoder().decode(own) : (scenario?.text ?? "");
+    this.text = { ...givenIn(text), ...listsOfTables(text) };
     await this.run(wanted.changes);
+    await this.showSettings(wanted.changes);
+  }
+
+  /**
+   * Shows the settings of the circuit that runs.
+   * @param {string[]} changes KEY=VALUE
+   */
+  async showSettings(changes) {
+    const changed = changes.findLast((change) => change.startsWith("circuit="))?.slice("circuit=".length);
+    const circuit = [changed, this.wanted.circuit, this.text?.circuit].find((name) => name)?.replaceAll('"', "") ?? "pulse_interpolator";
+    this.shown = circuit;
     const keys = await this.program().run({ words: ["keys", circuit, "--json"], files: [] });
-    if (keys.code === 0) this.settings?.show(JSON.parse(keys.out), given, wanted.changes);
+    if (keys.code !== 0 || this.shown !== circuit) return;
+    const printed = JSON.parse(keys.out);
+    this.settings?.show(printed, fromDirectory(this.text ?? {}, printed.scenario ?? [], this.wanted.file), changes);
+  }
+
+  /** Another circuit has other settings; those that are changed stay, as far as it has them. */
+  settingChanged() {
+    const changes = this.settings?.changes ?? [];
+    const circuit = this.settings?.value("circuit");
+    if (circuit && circuit !== this.shown) void this.showSettings(changes);
   }
 
   /**
@@ -242,7 +234,7 @@ class Page {
     const running = new AbortController();
     this.running = running;
     this.wanted = { ...this.wanted, changes };
-    if (!this.wanted.bytes) history.replaceState(null, "", linkOf(this.wanted));
+    if (!this.wanted.given) history.replaceState(null, "", linkOf(this.wanted));
     this.busy(true);
     clear(/** @type {HTMLElement} */ (this.problem));
     try {
@@ -284,9 +276,13 @@ class Page {
    * @param {Uint8Array} bytes
    */
   sofar(bytes) {
+    const began = performance.now();
+    if (began < this.sofarFrom) return;
     const whole = bytes.subarray(0, bytes.lastIndexOf(10) + 1);
     const series = readSeries(whole);
     if (series.rows > 1) this.path.show(series, { clockHz: 0, title: "so far" });
+    // A long series takes a fifth of the time at most.
+    this.sofarFrom = performance.now() + 4 * (performance.now() - began);
   }
 
   /**
@@ -301,11 +297,12 @@ class Page {
       return;
     }
     clear(this.pane("Summary")).append(summaryView(result.out));
-    const series = fileWith(result, ".csv");
+    const [csv, npy] = [fileWith(result, ".csv"), fileWith(result, ".npy")];
+    const series = csv ? readSeries(csv) : npy && readNpy(npy);
     const clockHz = summary.clock_hz;
     this.playhead.limit(0, Math.max(0, summary.ticks - 1));
-    if (series) this.path.show(readSeries(series), { clockHz, title: summary.input });
-    this.downloads(result);
+    if (series) this.path.show(series, { clockHz, title: summary.input });
+    clear(/** @type {HTMLElement} */ (this.files)).append(downloadsView(result, this.runner && (() => void this.vcd())));
     const fst = fileWith(result, ".fst");
     const save = fileWith(result, ".gtkw");
     if (!fst) return;
@@ -326,7 +323,7 @@ class Page {
     const dump = readVcd(vcd);
     this.playhead.limit(0, 1e6);
     await this.waves.show(dump, { clockHz: 0, save: save && readSave(new TextDecoder().decode(save)) });
-    this.open("Waves");
+    this.tabs.open("Waves");
   }
 
   /** @param {string} name @returns {Promise<import("./diagram.js").Circuit>} */
@@ -339,34 +336,11 @@ class Page {
     return listed;
   }
 
-  /**
-   * Lists the files of a run to be saved.
-   * @param {Result} result
-   */
-  downloads(result) {
-    const links = [...result.files].map(([path, bytes]) => download(path.replace(/^.*\//, ""), bytes));
-    links.push(download("summary.json", new TextEncoder().encode(result.out)));
-    const vcd = this.runner && element("button", { type: "button", onclick: () => void this.vcd() }, "VCD: run again");
-    clear(/** @type {HTMLElement} */ (this.files)).append(
-      element("details", {}, element("summary", {}, "Files of the run"), element("ul", {}, links.map((link) => element("li", {}, link))), vcd ?? ""),
-    );
-  }
-
   /** Runs again for the waves as VCD, which is large, and saves them. */
   async vcd() {
     const result = await this.program().run(jobOf(this.wanted, "vcd"));
-    for (const [path, bytes] of result.files) if (path.endsWith(".vcd")) download(path.replace(/^.*\//, ""), bytes).click();
+    for (const [path, bytes] of result.files) if (path.endsWith(".vcd")) downloadLink(path, bytes).click();
   }
-}
-
-/**
- * A link that saves a file.
- * @param {string} name
- * @param {Uint8Array<ArrayBuffer>} bytes
- */
-function download(name, bytes) {
-  const href = URL.createObjectURL(new Blob([bytes]));
-  return element("a", { href, download: name }, `${name} (${bytes.length.toLocaleString("en")} bytes)`);
 }
 
 const page = new Page();

@@ -1,4 +1,4 @@
-import { RangeExtremes } from "./extremes.js";
+import { Extremes } from "./extremes.js";
 import { CanvasLayers } from "./layers.js";
 import { Palette } from "./palette.js";
 import { countUpTo } from "./series.js";
@@ -16,7 +16,7 @@ const FOOT = 18;
 export class ErrorStrip extends EventTarget {
   /** @type {import("./series.js").Series | null} */
   #series = null;
-  /** @type {RangeExtremes[]} */
+  /** @type {Extremes[]} */
   #extremes = [];
   /** Largest error of each axis without its sign. @type {number[]} */
   #largest = [];
@@ -54,10 +54,10 @@ export class ErrorStrip extends EventTarget {
    */
   show(series) {
     this.#series = series;
-    this.#extremes = series.axes.map((axis) => new RangeExtremes(axis.error));
+    this.#extremes = series.axes.map((axis) => new Extremes(axis.error));
     this.#largest = this.#extremes.map((extremes) => {
-      extremes.find(0, series.rows);
-      return Math.max(0, -extremes.least, extremes.greatest);
+      const [least, greatest] = extremes.between(0, series.rows);
+      return Math.max(0, -least, greatest);
     });
     this.node.style.height = `${series.axes.length * LANE + FOOT}px`;
     this.fit();
@@ -183,8 +183,7 @@ export class ErrorStrip extends EventTarget {
         const from = held;
         held = rowAt(right + 1);
         // A row holds up to the next one.
-        this.#extremes[k].find(Math.max(0, from - 1), Math.max(from, held));
-        const { least, greatest } = this.#extremes[k];
+        const [least, greatest] = this.#extremes[k].between(Math.max(0, from - 1), Math.max(from, held));
         if (least > greatest) continue;
         const top = middle - greatest * scale;
         context.fillRect(right, top - 0.5, 1, Math.max(1.5, (greatest - least) * scale));

@@ -1,63 +1,57 @@
-/** Rows of a block whose extremes are kept. */
-const EXTREMES_BLOCK = 64;
+/** Numbers of a group in `Extremes`. */
+const GROUP = 32;
 
-/** Least and greatest of ranges of a column, from those of blocks. */
-export class RangeExtremes {
-  #values;
-  #least;
-  #greatest;
-  least = Infinity;
-  greatest = -Infinity;
+/** Least and greatest numbers of any part of a list, without going over all of the part. */
+export class Extremes {
+  /** @type {{least: Float64Array, greatest: Float64Array}[]} */
+  #levels;
 
-  /** @param {Float64Array} values */
-  constructor(values) {
-    this.#values = values;
-    const blocks = Math.floor(values.length / EXTREMES_BLOCK);
-    this.#least = new Float64Array(blocks);
-    this.#greatest = new Float64Array(blocks);
-    for (let block = 0; block < blocks; block += 1) {
-      this.#start();
-      this.#take(block * EXTREMES_BLOCK, (block + 1) * EXTREMES_BLOCK);
-      this.#least[block] = this.least;
-      this.#greatest[block] = this.greatest;
+  /** @param {Float64Array} numbers NaN is left out */
+  constructor(numbers) {
+    this.numbers = numbers;
+    this.#levels = [{ least: numbers, greatest: numbers }];
+    for (let { least, greatest } = this.#levels[0]; least.length > GROUP; ) {
+      const groups = Math.ceil(least.length / GROUP);
+      const level = {
+        least: new Float64Array(groups).fill(Infinity),
+        greatest: new Float64Array(groups).fill(-Infinity),
+      };
+      for (let i = 0; i < least.length; i++) {
+        const group = Math.floor(i / GROUP);
+        if (least[i] < level.least[group]) level.least[group] = least[i];
+        if (greatest[i] > level.greatest[group]) level.greatest[group] = greatest[i];
+      }
+      this.#levels.push(level);
+      ({ least, greatest } = level);
     }
   }
 
   /**
-   * Sets `least` and `greatest` to those of a range of rows, its end excluded. In a range without
-   * numbers they are infinite.
+   * Returns the least and greatest number from index `from` up to, without, `to`; infinite if
+   * there is none.
    * @param {number} from
    * @param {number} to
+   * @returns {[number, number]}
    */
-  find(from, to) {
-    this.#start();
-    const [firstBlock, endBlock] = [Math.ceil(from / EXTREMES_BLOCK), Math.floor(to / EXTREMES_BLOCK)];
-    if (firstBlock >= endBlock) {
-      this.#take(from, to);
-      return;
+  between(from, to) {
+    let least = Infinity;
+    let greatest = -Infinity;
+    /**
+     * @param {number} level
+     * @param {number} i
+     */
+    const take = (level, i) => {
+      const { least: low, greatest: high } = this.#levels[level];
+      if (low[i] < least) least = low[i];
+      if (high[i] > greatest) greatest = high[i];
+    };
+    for (let level = 0; from < to; level++) {
+      const isTop = level === this.#levels.length - 1;
+      while (from < to && (isTop || from % GROUP !== 0)) take(level, from++);
+      while (from < to && to % GROUP !== 0) take(level, --to);
+      from /= GROUP;
+      to /= GROUP;
     }
-    this.#take(from, firstBlock * EXTREMES_BLOCK);
-    for (let block = firstBlock; block < endBlock; block += 1) {
-      if (this.#least[block] < this.least) this.least = this.#least[block];
-      if (this.#greatest[block] > this.greatest) this.greatest = this.#greatest[block];
-    }
-    this.#take(endBlock * EXTREMES_BLOCK, to);
-  }
-
-  #start() {
-    this.least = Infinity;
-    this.greatest = -Infinity;
-  }
-
-  /**
-   * @param {number} from
-   * @param {number} to
-   */
-  #take(from, to) {
-    for (let row = from; row < to; row += 1) {
-      const value = this.#values[row];
-      if (value < this.least) this.least = value;
-      if (value > this.greatest) this.greatest = value;
-    }
+    return [least, greatest];
   }
 }

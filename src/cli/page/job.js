@@ -1,11 +1,11 @@
 // The run that the page asks for: a scenario or a file of the reader's, and changed settings.
 
 /**
- * What is to be run. A file of the reader's has its name and contents, and the circuit on which it
- * runs where it is no scenario.
+ * What is to be run. Files of the reader's have names and contents; one that is no scenario runs on
+ * a circuit.
  * @typedef {object} Wanted
- * @property {string} file path of a shipped scenario, or name of the reader's file
- * @property {Uint8Array<ArrayBuffer>} [bytes]
+ * @property {string} file path of a shipped scenario, or name of one of the reader's files
+ * @property {[string, Uint8Array<ArrayBuffer>][]} [given] files of the reader's
  * @property {string} [circuit]
  * @property {string[]} changes KEY=VALUE
  */
@@ -20,14 +20,14 @@ const RUN_SERIES = `${RUN_FILES}/path.csv`;
  * @param {"fst" | "vcd"} format of the waves
  * @returns {import("./worker.js").Job}
  */
-export function jobOf({ file, bytes, circuit, changes }, format = "fst") {
+export function jobOf({ file, given, circuit, changes }, format = "fst") {
   const sets = circuit ? [`circuit=${circuit}`, ...changes] : changes;
   return {
     words: [
       ...["run", file, "--json", "--format", format, "--out", RUN_FILES, "--series", RUN_SERIES],
       ...sets.flatMap((change) => ["--set", change]),
     ],
-    files: bytes ? [[file, bytes]] : [],
+    files: given ?? [],
   };
 }
 

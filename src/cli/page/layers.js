@@ -44,6 +44,12 @@ export class CanvasLayers {
     this.#request();
   }
 
+  /** Has the lower one drawn again. */
+  markBase() {
+    this.#layers[0].marked = true;
+    this.#request();
+  }
+
   /** Has the upper one drawn again. */
   markAbove() {
     this.#layers[1].marked = true;

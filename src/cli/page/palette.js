@@ -1,10 +1,13 @@
+import { element } from "./dom.js";
+
 /**
  * Colours of the page's theme for drawings on canvases, by the names of the custom properties.
  */
 export class Palette {
-  /** @type {CSSStyleDeclaration | null} */
-  #style = null;
-  #host;
+  /** @type {Map<string, string>} */
+  #colours = new Map();
+  /** Takes on each colour, as the properties have two, one for each theme. */
+  #probe = element("span", { hidden: true });
   #changed;
 
   /**
@@ -12,7 +15,7 @@ export class Palette {
    * @param {() => void} changed called when the theme has changed
    */
   constructor(host, changed) {
-    this.#host = host;
+    host.append(this.#probe);
     this.#changed = changed;
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.renew());
     const watch = { attributes: true, attributeFilter: ["data-theme"] };
@@ -21,7 +24,7 @@ export class Palette {
 
   /** Reads the colours again. */
   renew() {
-    this.#style = null;
+    this.#colours.clear();
     this.#changed();
   }
 
@@ -30,7 +33,12 @@ export class Palette {
    * @param {string} name
    */
   colour(name) {
-    this.#style ??= getComputedStyle(this.#host);
-    return this.#style.getPropertyValue(`--${name}`).trim() || "currentColor";
+    let colour = this.#colours.get(name);
+    if (colour === undefined) {
+      this.#probe.style.color = `var(--${name})`;
+      colour = getComputedStyle(this.#probe).color;
+      this.#colours.set(name, colour);
+    }
+    return colour;
   }
 }

@@ -1,14 +1,15 @@
 import { CanvasLayers } from "./layers.js";
 import { Palette } from "./palette.js";
+import { PathPicture } from "./pathpicture.js";
+import { drawDirections, drawScales } from "./pathscales.js";
+import { displaced } from "./pathviews.js";
 import { Polyline } from "./reduction.js";
-import { ISOMETRIC, displaced } from "./pathviews.js";
-import { markText, scaleMarks } from "./quantities.js";
 
 /** Free pixels around a path that fits, for the marks of the scales. */
 const MARGIN = 44;
-/** Points of a line that are drawn in a frame of a movement, and at rest after some milliseconds. */
-const MOST_MOVING = 8_000;
-const MOST_AT_REST = 60_000;
+/** Pixels of lines that are drawn in each frame; where there are more, a picture is drawn once. */
+const MOST_IN_FRAME = 100_000;
+/** Milliseconds after which a drawing rests. */
 const REST_MS = 150;
 /** Pixels within which the pointer is at the path. */
 const REACH = 16;
@@ -36,6 +37,9 @@ export class PathCanvas extends EventTarget {
   #resting = 0;
   /** @type {import("./reduction.js").PlaneWindow} */
   #window = { x0: 0, y0: 0, scaleX: 1, scaleY: 1, width: 1, height: 1 };
+  /** True if the lines are shown as a picture. */
+  #isDense = false;
+  #picture = new PathPicture(() => this.#lines());
   #layers;
   #palette;
 
@@ -47,7 +51,7 @@ export class PathCanvas extends EventTarget {
       (context) => this.#drawPath(context),
       (context) => this.#drawHead(context),
     );
-    this.#palette = new Palette(this.#layers.node, () => this.#layers.markAll());
+    this.#palette = new Palette(this.#layers.node, () => this.#renew());
     this.#layers.node.addEventListener("layout", () => this.#layout());
     this.#listen(this.#layers.above);
   }
@@ -86,6 +90,11 @@ export class PathCanvas extends EventTarget {
     const [xs, ys] = this.#view.project(displaced(this.#view.group, magnification), this.#series.times);
     this.#actual = new Polyline(xs, ys);
     if (this.#fitted) this.fit();
+    this.#renew();
+  }
+
+  #renew() {
+    this.#picture.clear();
     this.#layers.markAll();
   }
 
@@ -239,100 +248,33 @@ export class PathCanvas extends EventTarget {
   /** @param {CanvasRenderingContext2D} context */
   #drawPath(context) {
     if (!this.#view || !this.#commanded || !this.#actual) return;
-    if (this.#view.captions) this.#drawScales(context, this.#view.captions);
-    else this.#drawDirections(context);
-    context.lineJoin = context.lineCap = "round";
-    this.#stroke(context, this.#commanded, "series-1", 3);
-    this.#stroke(context, this.#actual, "series-2", 1.25);
+    const { captions, group } = this.#view;
+    if (captions) drawScales(context, this.#window, this.#palette, captions);
+    else drawDirections(context, this.#window, this.#palette, group);
+    const rests = this.#resting === 0;
+    // At rest only: another scale needs points of its own, which take longer than a frame.
+    if (rests || !this.#isDense) {
+      this.#isDense = this.#commanded.effort(this.#window) + this.#actual.effort(this.#window) > MOST_IN_FRAME;
+    }
+    if (!this.#isDense) {
+      context.lineJoin = context.lineCap = "round";
+      for (const { line, colour, thickness } of this.#lines()) {
+        context.strokeStyle = colour;
+        context.lineWidth = thickness;
+        line.stroke(context, this.#window);
+      }
+    } else if (this.#picture.show(context, this.#window, rests)) {
+      this.#layers.markBase();
+    }
   }
 
-  /**
-   * @param {CanvasRenderingContext2D} context
-   * @param {Polyline} line
-   * @param {string} colour
-   * @param {number} width
-   */
-  #stroke(context, line, colour, width) {
-    context.strokeStyle = this.#palette.colour(colour);
-    context.lineWidth = width;
-    line.stroke(context, this.#window, this.#resting === 0 ? MOST_AT_REST : MOST_MOVING);
-  }
-
-  /**
-   * @param {CanvasRenderingContext2D} context
-   * @param {[string, string]} captions
-   */
-  #drawScales(context, captions) {
-    const { x0, y0, scaleX, scaleY, width, height } = this.#window;
-    const [halfX, halfY] = [width / 2 / scaleX, height / 2 / scaleY];
-    const across = scaleMarks(x0 - halfX, x0 + halfX, width / 110);
-    const upward = scaleMarks(y0 - halfY, y0 + halfY, height / 70);
-    context.beginPath();
-    for (const x of across.values) {
-      const right = Math.round(width / 2 + (x - x0) * scaleX) + 0.5;
-      context.moveTo(right, 0);
-      context.lineTo(right, height);
-    }
-    for (const y of upward.values) {
-      const down = Math.round(height / 2 - (y - y0) * scaleY) + 0.5;
-      context.moveTo(0, down);
-      context.lineTo(width, down);
-    }
-    context.strokeStyle = this.#palette.colour("line");
-    context.lineWidth = 1;
-    context.stroke();
-    this.#textStyle(context);
-    context.textAlign = "left";
-    for (const x of across.values) {
-      const right = width / 2 + (x - x0) * scaleX;
-      // The lower corners belong to the captions.
-      if (right > 40 && right < width - 140) context.fillText(markText(x, across.step), right + 3, height - 6);
-    }
-    for (const y of upward.values) {
-      const down = height / 2 - (y - y0) * scaleY;
-      if (down > 40 && down < height - 24) context.fillText(markText(y, upward.step), 4, down - 4);
-    }
-    context.fillStyle = this.#palette.colour("text");
-    context.fillText(captions[1], 4, 16);
-    context.textAlign = "right";
-    context.fillText(captions[0], width - 6, height - 6);
-  }
-
-  /**
-   * Draws the directions of X, Y and Z, and a length.
-   * @param {CanvasRenderingContext2D} context
-   */
-  #drawDirections(context) {
-    const view = this.#view;
-    if (!view) return;
-    const { scaleX, width, height } = this.#window;
-    const [right, down, length] = [48, height - 62, 40];
-    context.beginPath();
-    for (const [x, y] of ISOMETRIC) {
-      context.moveTo(right, down);
-      context.lineTo(right + x * length, down - y * length);
-    }
-    const { step } = scaleMarks(0, width / scaleX, 6);
-    context.moveTo(width - 16 - step * scaleX, height - 24);
-    context.lineTo(width - 16, height - 24);
-    context.strokeStyle = this.#palette.colour("faint");
-    context.lineWidth = 1.5;
-    context.stroke();
-    this.#textStyle(context);
-    context.textAlign = "center";
-    view.group.axes.forEach((axis, k) => {
-      const [x, y] = ISOMETRIC[k];
-      context.fillText(axis.name, right + x * length * 1.3, down - y * length * 1.3 + 4);
-    });
-    context.textAlign = "right";
-    context.fillText(`${markText(step, step)} ${view.group.unit}`, width - 16, height - 8);
-  }
-
-  /** @param {CanvasRenderingContext2D} context */
-  #textStyle(context) {
-    context.font = "12px system-ui, sans-serif";
-    context.textBaseline = "alphabetic";
-    context.fillStyle = this.#palette.colour("faint");
+  /** The lines, the upper one last. */
+  #lines() {
+    if (!this.#commanded || !this.#actual) return [];
+    return [
+      { line: this.#commanded, colour: this.#palette.colour("series-1"), thickness: 3 },
+      { line: this.#actual, colour: this.#palette.colour("series-2"), thickness: 1.25 },
+    ];
   }
 
   /** @param {CanvasRenderingContext2D} context */

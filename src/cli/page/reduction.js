@@ -1,9 +1,9 @@
 /** Points of a block, which is drawn or left out as a whole. */
 const BLOCK = 64;
-/** Points that are stroked at once. */
+/** Points that are stroked at once: one long path is drawn much more slowly than many short ones. */
 const PATH_POINTS = 1024;
-/** Powers of two by which a level may be coarser than the window shows. */
-const COARSEST = 6;
+/** Effort of drawing a point, in pixels of a line. */
+const POINT_EFFORT = 8;
 /** Pixels by which a line may miss its points. */
 const TOLERANCE = 0.25;
 /** Levels of detail that are kept. */
@@ -16,6 +16,7 @@ const LEVELS_KEPT = 16;
  * @property {Uint32Array} rows rows of the points, increasing
  * @property {Float64Array} boxes least x, greatest x, least y and greatest y of each block and of
  *   the point after it
+ * @property {Float32Array} efforts of drawing each block
  */
 
 /**
@@ -32,11 +33,13 @@ const LEVELS_KEPT = 16;
 
 /**
  * A line through points of a plane. It is drawn with no more points than the scale shows, and only
- * where it is in the window, so that a million points are drawn in a frame.
+ * where it is in the window.
  */
 export class Polyline {
   /** @type {Map<string, DetailLevel>} */
   #levels = new Map();
+  /** @type {[number, number, number, number] | undefined} */
+  #bounds;
 
   /**
    * @param {Float64Array} xs
@@ -52,40 +55,91 @@ export class Polyline {
    * @returns {[number, number, number, number]}
    */
   bounds() {
-    return boundsOf(this.xs, this.ys, 0, this.xs.length);
+    this.#bounds ??= boundsOf(this.xs, this.ys, 0, this.xs.length);
+    return this.#bounds;
+  }
+
+  /**
+   * Returns the effort of drawing the line in a window: about its length in pixels.
+   * @param {PlaneWindow} view
+   */
+  effort(view) {
+    const { boxes, efforts } = this.#level(view);
+    let sum = 0;
+    for (let block = 0; block < efforts.length; block += 1) if (!isOutside(boxes, block, view)) sum += efforts[block];
+    return sum;
   }
 
   /**
    * Strokes the line in the context's style.
    * @param {CanvasRenderingContext2D} context
    * @param {PlaneWindow} view
-   * @param {number} most points that are drawn; the line is coarser if the window shows more
    */
-  stroke(context, view, most) {
-    const { rows, boxes } = this.#drawnLevel(view, most);
-    const { x0, y0, scaleX, scaleY, width, height } = view;
-    let [drawnTo, inPath] = [-1, 0];
+  stroke(context, view) {
+    let [points, end] = [0, -1];
     context.beginPath();
-    for (let block = 0; 4 * block < boxes.length; block += 1) {
-      if (isOutside(boxes, block, view)) continue;
-      const first = block * BLOCK;
-      const last = Math.min(rows.length - 1, first + BLOCK);
-      // One long path is drawn much more slowly than many short ones.
-      if (inPath > PATH_POINTS) {
+    for (const [from, to] of this.#blocks(view)) {
+      if (points > PATH_POINTS) {
         context.stroke();
         context.beginPath();
-        [drawnTo, inPath] = [-1, 0];
+        [points, end] = [0, -1];
       }
-      for (let k = drawnTo === first ? first + 1 : first; k <= last; k += 1) {
-        const right = width / 2 + (this.xs[rows[k]] - x0) * scaleX;
-        const down = height / 2 - (this.ys[rows[k]] - y0) * scaleY;
-        if (k === first && drawnTo !== first) context.moveTo(right, down);
-        else context.lineTo(right, down);
-      }
-      drawnTo = last;
-      inPath += BLOCK;
+      this.#each(view, from, to, (x0, y0, x1, y1, k) => {
+        if (k === from && end !== from) context.moveTo(x0, y0);
+        context.lineTo(x1, y1);
+      });
+      points += BLOCK;
+      end = to;
     }
     context.stroke();
+  }
+
+  /**
+   * Draws the line into a mask, block by block; yields the effort of each.
+   * @param {import("./linemask.js").LineMask} mask
+   * @param {PlaneWindow} view
+   * @param {number} ratio pixels of the mask to one of the window
+   * @returns {Generator<number, void>}
+   */
+  *mask(mask, view, ratio) {
+    const { efforts } = this.#level(view);
+    for (const [from, to] of this.#blocks(view)) {
+      this.#each(view, from, to, (x0, y0, x1, y1) => mask.line(ratio * x0, ratio * y0, ratio * x1, ratio * y1));
+      yield efforts[from / BLOCK];
+    }
+  }
+
+  /**
+   * Lists the blocks in a window, each with the points at its begin and at its end.
+   * @param {PlaneWindow} view
+   * @returns {Generator<[number, number], void>}
+   */
+  *#blocks(view) {
+    const { rows, boxes } = this.#level(view);
+    for (let block = 0; 4 * block < boxes.length; block += 1) {
+      if (isOutside(boxes, block, view)) continue;
+      yield [block * BLOCK, Math.min(rows.length - 1, (block + 1) * BLOCK)];
+    }
+  }
+
+  /**
+   * Goes over lines between points, in pixels. A single point is a line of no length.
+   * @param {PlaneWindow} view
+   * @param {number} from point
+   * @param {number} to point
+   * @param {(x0: number, y0: number, x1: number, y1: number, from: number) => void} draw
+   */
+  #each(view, from, to, draw) {
+    const { rows } = this.#level(view);
+    const { x0, y0, scaleX, scaleY, width, height } = view;
+    const { xs, ys } = this;
+    let [right, down] = [width / 2 + (xs[rows[from]] - x0) * scaleX, height / 2 - (ys[rows[from]] - y0) * scaleY];
+    for (let k = from; k < to || k === from; k += 1) {
+      const row = rows[Math.min(k + 1, to)];
+      const [nextRight, nextDown] = [width / 2 + (xs[row] - x0) * scaleX, height / 2 - (ys[row] - y0) * scaleY];
+      draw(right, down, nextRight, nextDown, k);
+      [right, down] = [nextRight, nextDown];
+    }
   }
 
   /**
@@ -100,7 +154,7 @@ export class Polyline {
    * @returns {number | null}
    */
   nearest(view, right, down, reach, preferred) {
-    const { rows, boxes } = this.#level(view, 0);
+    const { rows, boxes } = this.#level(view);
     const x = view.x0 + (right - view.width / 2) / view.scaleX;
     const y = view.y0 - (down - view.height / 2) / view.scaleY;
     let [best, bestRow, from, to] = [reach, -1, 0, 0];
@@ -162,29 +216,12 @@ export class Polyline {
   }
 
   /**
-   * Returns the finest level of which the window shows no more points than these.
-   * @param {PlaneWindow} view
-   * @param {number} most
-   */
-  #drawnLevel(view, most) {
-    for (let coarser = 0; ; coarser += 1) {
-      const level = this.#level(view, coarser);
-      let shown = 0;
-      for (let block = 0; 4 * block < level.boxes.length; block += 1) {
-        if (!isOutside(level.boxes, block, view)) shown += BLOCK;
-      }
-      if (shown <= most || coarser === COARSEST) return level;
-    }
-  }
-
-  /**
    * Returns the points for a scale. Scales are taken in powers of two, so that a zoom seldom needs
    * another level.
    * @param {PlaneWindow} view
-   * @param {number} coarser powers of two
    */
-  #level(view, coarser) {
-    const [powerX, powerY] = [view.scaleX, view.scaleY].map((scale) => Math.ceil(Math.log2(scale)) - coarser);
+  #level(view) {
+    const [powerX, powerY] = [view.scaleX, view.scaleY].map((scale) => Math.ceil(Math.log2(scale)));
     const key = `${powerX} ${powerY}`;
     const known = this.#levels.get(key);
     if (known) return known;
@@ -215,18 +252,23 @@ function isOutside(boxes, block, { x0, y0, scaleX, scaleY, width, height }) {
 function detailLevel(xs, ys, scaleX, scaleY) {
   const rows = keptRows(xs, ys, scaleX, scaleY);
   const boxes = new Float64Array(4 * Math.ceil(rows.length / BLOCK));
+  const efforts = new Float32Array(boxes.length / 4);
   for (let block = 0; block * BLOCK < rows.length; block += 1) {
     let [left, right, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];
+    let [before, effort] = [rows[block * BLOCK], 0];
     for (let k = block * BLOCK; k <= Math.min(rows.length - 1, (block + 1) * BLOCK); k += 1) {
       const [x, y] = [xs[rows[k]], ys[rows[k]]];
       if (x < left) left = x;
       if (x > right) right = x;
       if (y < bottom) bottom = y;
       if (y > top) top = y;
+      effort += POINT_EFFORT + Math.abs(x - xs[before]) * scaleX + Math.abs(y - ys[before]) * scaleY;
+      before = rows[k];
     }
     boxes.set([left, right, bottom, top], 4 * block);
+    efforts[block] = effort;
   }
-  return { rows, boxes };
+  return { rows, boxes, efforts };
 }
 
 /**

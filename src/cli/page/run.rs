@@ -8,7 +8,7 @@ use std::io;
 use std::path::Path;
 
 /// Extensions of the files of a run that the page shows.
-const SHOWN: [&str; 3] = ["fst", "gtkw", "csv"];
+const SHOWN: [&str; 4] = ["fst", "gtkw", "csv", "npy"];
 
 /// Returns the page of a run, with what it printed and the files that it wrote.
 ///

@@ -65,8 +65,11 @@ export class BrowserRunner {
   }
 }
 
-/** Time between two looks at a run of the serving program, in ms. */
-const LOOKS = 150;
+/** Time between two looks at a run of the serving program, in ms: it grows from the first to the last. */
+const LOOKS = [20, 150];
+
+/** Time from one look at the growing series to the next, in ms. */
+const SERIES_LOOKS = 500;
 
 /** Has the program run that serves the page. */
 export class ServedRunner {
@@ -84,28 +87,36 @@ export class ServedRunner {
    * @param {AbortSignal} [signal] cancels it: the program is ended
    * @returns {Promise<Result>}
    */
-  async run({ words, files, input }, listener = {}, signal) {
+  async run({ words, files: given, input }, listener = {}, signal) {
     const body = JSON.stringify({
       words,
-      files: files.map(([path, bytes]) => [path, toBase64(bytes)]),
+      files: given.map(([path, bytes]) => [path, toBase64(bytes)]),
       input: input ? toBase64(input) : null,
     });
     const { id } = await (await answered(fetch(this.address, { method: "POST", body }))).json();
     const run = `${this.address}/${id}`;
-    let errors = "";
-    let from = 0;
+    let [errors, from, series, pause] = ["", 0, "", LOOKS[0]];
+    let seriesFrom = performance.now() + SERIES_LOOKS;
     try {
       for (;;) {
         if (signal?.aborted) throw new Cancelled();
-        const { said, next, ended } = await (await answered(fetch(`${run}?from=${from}`))).json();
-        errors += said;
-        from = next;
-        if (said !== "") listener.said?.(said);
-        if (ended) {
-          const { code, out } = ended;
-          return { code, out, errors, files: await filesOf(run, ended.files) };
+        const wantsSeries = listener.grown !== undefined && performance.now() >= seriesFrom;
+        const seen = wantsSeries ? `from=${from}&series=${series.length}` : `from=${from}`;
+        const state = await (await answered(fetch(`${run}?${seen}`))).json();
+        errors += state.said;
+        from = state.next;
+        if (state.said !== "") listener.said?.(state.said);
+        if (state.ended) {
+          const { code, out, files } = state.ended;
+          return { code, out, errors, files: await filesOf(run, files) };
         }
-        await new Promise((resolve) => setTimeout(resolve, LOOKS));
+        if (wantsSeries) seriesFrom = performance.now() + SERIES_LOOKS;
+        if (state.series !== "") {
+          series += state.series;
+          listener.grown?.(new TextEncoder().encode(series));
+        }
+        await new Promise((resolve) => setTimeout(resolve, pause));
+        pause = Math.min(1.5 * pause, LOOKS[1]);
       }
     } finally {
       // Ends it if it still runs, and removes its files.

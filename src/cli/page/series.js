@@ -99,7 +99,17 @@ export function readSeries(file) {
   const found = bytes.indexOf(LINE_FEED);
   const headEnd = found < 0 ? bytes.length : found;
   const names = asciiText(bytes, 0, headEnd).replace("\r", "").split(",");
-  const columns = readColumns(bytes, headEnd + 1, names.length);
+  return seriesOf(names, readColumns(bytes, headEnd + 1, names.length));
+}
+
+/**
+ * Returns the series of a table.
+ * @param {string[]} names of its columns
+ * @param {Float64Array[]} columns
+ * @returns {Series}
+ * @throws {Error} if a column is missing
+ */
+export function seriesOf(names, columns) {
   const column = (/** @type {string} */ name) => {
     const k = names.indexOf(name);
     if (k < 0) throw new Error(`Line 1: the column ${name} is missing`);

@@ -70,6 +70,28 @@ export function shownText(setting, toml) {
 }
 
 /**
+ * Returns the values of a scenario with paths from the working directory, as `--set` takes them; in
+ * the file they are relative to it.
+ * @param {Record<string, string>} given TOML texts by dotted keys
+ * @param {PrintedKey[]} printed
+ * @param {string} file path of the scenario
+ */
+export function fromDirectory(given, printed, file) {
+  const directory = file.slice(0, file.lastIndexOf("/") + 1);
+  const paths = printed.filter(({ kind }) => kind === "path" || kind === "list of paths").map(({ key }) => key);
+  const placed = (/** @type {string} */ text) =>
+    text.replace(/"([^"/\\][^"]*)"/g, (_, path) => JSON.stringify(directory + path));
+  return Object.fromEntries(Object.entries(given).map(([key, text]) => {
+    if (directory === "") return [key, text];
+    if (paths.includes(key)) return [key, placed(text)];
+    // Paths in the tables of a list.
+    const names = paths.filter((path) => path.startsWith(`${key}.`)).map((path) => path.slice(key.length + 1));
+    if (names.length === 0) return [key, text];
+    return [key, text.replace(new RegExp(`\\b(${names.join("|")}) = "[^"]*"`, "g"), placed)];
+  }));
+}
+
+/**
  * Returns what is wrong with a text, or an empty string. What only the program can tell is not wrong.
  * @param {Setting} setting
  * @param {string} text

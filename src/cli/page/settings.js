@@ -75,6 +75,14 @@ export class SettingsForm extends EventTarget {
   }
 
   /**
+   * Returns the text of a setting, if there is one of that key.
+   * @param {string} key
+   */
+  value(key) {
+    return this.#fields.find(({ setting }) => setting.key === key)?.control.value;
+  }
+
+  /**
    * Shows what the program refused at the settings that the faults name, and the rest above the form.
    * @param {import("./problem.js").ProgramFault[]} faults
    */

@@ -1,5 +1,6 @@
 import { indexAt, valueOf } from "./dump.js";
-import { Extremes, collectColumns, pixelColumns, shownNumbers, valueText } from "./valueformat.js";
+import { collectColumns, pixelColumns, shownNumbers, valueText } from "./valueformat.js";
+import { Extremes } from "./extremes.js";
 import { ROW_HEIGHT } from "./waverows.js";
 
 /** @typedef {import("./column.js").Changes} Changes */

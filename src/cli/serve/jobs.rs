@@ -3,12 +3,12 @@
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use serde::{Deserialize, Serialize};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::{self, Read as _, Seek as _, SeekFrom};
 use std::path::{Component, Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
@@ -18,6 +18,12 @@ const COMMANDS: [&str; 5] = ["run", "check", "mutate", "list", "keys"];
 
 /// Time after which a job is ended at which nobody has looked: its page is closed.
 const FORGOTTEN: Duration = Duration::from_secs(30);
+
+/// Beginning of a series in CSV.
+const SERIES_HEAD: &[u8] = b"tick,";
+
+/// Most bytes of a series in one answer.
+const MOST_SERIES: u64 = 4 << 20;
 
 /// A job as the page posts it.
 #[derive(Debug, Deserialize)]
@@ -31,13 +37,24 @@ pub struct Asked {
     input: Option<String>,
 }
 
-/// State of a job: its messages so far and, once it has ended, its result.
+/// Bytes of a job that a page has seen.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Seen {
+    /// Of standard error.
+    pub said: u64,
+    /// Of the series that the job is writing; `None` if the page does not want it.
+    pub series: Option<u64>,
+}
+
+/// State of a job: what is new and, once it has ended, its result.
 #[derive(Debug, Serialize)]
 pub struct State {
-    /// Text on standard error from the given byte on.
+    /// Text on standard error that was not seen.
     said: String,
-    /// Byte from which to go on.
+    /// Byte of standard error from which to go on.
     next: u64,
+    /// Whole lines of the series that were not seen.
+    series: String,
     /// The end, once it has come.
     ended: Option<Ended>,
 }
@@ -50,12 +67,13 @@ struct Ended {
     files: Vec<String>,
 }
 
-/// All jobs, by number.
+/// Runs jobs.
 pub struct Jobs {
     program: PathBuf,
-    all: Arc<Mutex<HashMap<u64, Job>>>,
-    next: Mutex<u64>,
 }
+
+/// All jobs, by number, and the number of the last one.
+static ALL: Mutex<(BTreeMap<u64, Job>, u64)> = Mutex::new((BTreeMap::new(), 0));
 
 /// A job: the program as it runs, and its directory. Dropped, both are gone.
 struct Job {
@@ -89,19 +107,15 @@ impl Jobs {
     /// # Errors
     /// Returns an error if the program does not know its own path.
     pub fn new() -> io::Result<Self> {
-        let all: Arc<Mutex<HashMap<u64, Job>>> = Arc::default();
-        let jobs = Jobs {
-            program: std::env::current_exe()?,
-            all: all.clone(),
-            next: Mutex::new(0),
-        };
-        thread::Builder::new().name("jobs".into()).spawn(move || {
+        thread::Builder::new().name("jobs".into()).spawn(|| {
             loop {
                 thread::sleep(FORGOTTEN / 10);
-                lock(&all).retain(|_, job| job.looked.elapsed() < FORGOTTEN);
+                let looked_at = |job: &mut Job| job.looked.elapsed() < FORGOTTEN;
+                all().0.retain(|_, job| looked_at(job));
             }
         })?;
-        Ok(jobs)
+        let program = std::env::current_exe()?;
+        Ok(Jobs { program })
     }
 
     /// Begins a job; returns its number.
@@ -114,6 +128,8 @@ impl Jobs {
             return Err(format!("{command} is none of: {}", COMMANDS.join(", ")));
         }
         let told = |error: io::Error| error.to_string();
+        // Locked until the job is in the list: a signal in between would leave it behind.
+        let mut all = all();
         let directory = tempfile::Builder::new()
             .prefix("motion-rtl-")
             .tempdir()
@@ -143,45 +159,31 @@ impl Jobs {
             .stderr(Stdio::from(file(ERRORS)?))
             .spawn()
             .map_err(told)?;
-        let id = {
-            let mut next = lock(&self.next);
-            *next += 1;
-            *next
+        let (jobs, last) = &mut *all;
+        *last += 1;
+        let job = Job {
+            child,
+            directory,
+            given,
+            looked: Instant::now(),
         };
-        let looked = Instant::now();
-        lock(&self.all).insert(
-            id,
-            Job {
-                child,
-                directory,
-                given,
-                looked,
-            },
-        );
-        Ok(id)
+        jobs.insert(*last, job);
+        Ok(*last)
     }
 
-    /// Looks at a job: what it has said since byte `from`, and how it ended.
+    /// Looks at a job: what is new, and how it ended.
     ///
     /// # Errors
     /// There is no such job, or its files cannot be read.
-    pub fn look(&self, id: &str, from: u64) -> Result<State, String> {
-        self.with(id, |job| {
-            job.looked = Instant::now();
+    pub fn look(&self, id: &str, seen: Seen) -> Result<State, String> {
+        with(id, |job| {
             // First, as it may still write before it ends.
             let status = job.child.try_wait()?;
-            let mut errors = File::open(job.path(ERRORS))?;
-            errors.seek(SeekFrom::Start(from))?;
-            let mut said = Vec::new();
-            errors.read_to_end(&mut said)?;
-            // Up to a whole line, which has whole characters.
-            if status.is_none() {
-                let end = said
-                    .iter()
-                    .rposition(|&byte| byte == b'\n')
-                    .map_or(0, |at| at + 1);
-                said.truncate(end);
-            }
+            let said = tail(&job.path(ERRORS), seen.said, u64::MAX, status.is_none())?;
+            let series = match (seen.series, status) {
+                (Some(from), None) => series(&job.path(WORK), from)?,
+                _ => Vec::new(),
+            };
             let ended = status.map(|status| -> io::Result<Ended> {
                 Ok(Ended {
                     // A signal has no code.
@@ -191,8 +193,9 @@ impl Jobs {
                 })
             });
             Ok(State {
-                next: from + said.len() as u64,
+                next: seen.said + said.len() as u64,
                 said: String::from_utf8_lossy(&said).into_owned(),
+                series: String::from_utf8_lossy(&series).into_owned(),
                 ended: ended.transpose()?,
             })
         })
@@ -204,25 +207,69 @@ impl Jobs {
     /// There is no such job or file.
     pub fn file(&self, id: &str, path: &str) -> Result<Vec<u8>, String> {
         let within = within(path).ok_or_else(|| format!("{path} is no path within a directory"))?;
-        self.with(id, |job| {
-            job.looked = Instant::now();
-            fs::read(job.path(WORK).join(&within))
-        })
+        with(id, |job| fs::read(job.path(WORK).join(&within)))
     }
 
     /// Ends a job, if it still runs, and removes its files.
     pub fn end(&self, id: &str) {
         if let Ok(id) = id.parse() {
-            drop(lock(&self.all).remove(&id));
+            drop(all().0.remove(&id));
         }
     }
+}
 
-    fn with<T>(&self, id: &str, look: impl FnOnce(&mut Job) -> io::Result<T>) -> Result<T, String> {
-        let mut all = lock(&self.all);
-        let job = id.parse().ok().and_then(|id: u64| all.get_mut(&id));
-        let job = job.ok_or_else(|| format!("there is no job {id}"))?;
-        look(job).map_err(|error| error.to_string())
+/// Ends all jobs and removes their directories, for a program that a signal ends. No job begins
+/// after that.
+#[cfg(unix)]
+pub fn stop() {
+    let mut all = all();
+    all.0.clear();
+    // Threads that ask for jobs wait until the program has ended.
+    std::mem::forget(all);
+}
+
+fn with<T>(id: &str, look: impl FnOnce(&mut Job) -> io::Result<T>) -> Result<T, String> {
+    let mut all = all();
+    let job = id.parse().ok().and_then(|id: u64| all.0.get_mut(&id));
+    let job = job.ok_or_else(|| format!("there is no job {id}"))?;
+    job.looked = Instant::now();
+    look(job).map_err(|error| error.to_string())
+}
+
+fn all() -> MutexGuard<'static, (BTreeMap<u64, Job>, u64)> {
+    ALL.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Returns at most `most` bytes of a file from a byte on; if it grows, whole lines only, which have
+/// whole characters.
+fn tail(path: &Path, from: u64, most: u64, grows: bool) -> io::Result<Vec<u8>> {
+    let mut file = File::open(path)?;
+    file.seek(SeekFrom::Start(from))?;
+    let mut bytes = Vec::new();
+    file.take(most).read_to_end(&mut bytes)?;
+    if grows {
+        let end = bytes.iter().rposition(|&byte| byte == b'\n');
+        bytes.truncate(end.map_or(0, |at| at + 1));
     }
+    Ok(bytes)
+}
+
+/// Returns lines of the series that a job is writing, from a byte on; none before there is one.
+/// It has a hidden name until it is complete.
+fn series(directory: &Path, from: u64) -> io::Result<Vec<u8>> {
+    let hidden = |path: &Path| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        name.starts_with('.')
+    };
+    for path in below(directory)? {
+        let path = directory.join(path);
+        let head = tail(&path, 0, SERIES_HEAD.len() as u64, false);
+        // It may have got its name since it was listed.
+        if hidden(&path) && head.is_ok_and(|head| head == SERIES_HEAD) {
+            return Ok(tail(&path, from, MOST_SERIES, true).unwrap_or_default());
+        }
+    }
+    Ok(Vec::new())
 }
 
 /// A path that stays within its directory.
@@ -243,26 +290,31 @@ fn decoded(text: &str) -> Result<Vec<u8>, String> {
 /// The files below a directory that were not given, as paths in it with `/`. Hidden ones are left
 /// out.
 fn written(directory: &Path, given: &BTreeSet<PathBuf>) -> io::Result<Vec<String>> {
+    let hidden = |path: &PathBuf| {
+        let mut parts = path.components();
+        parts.any(|part| part.as_os_str().to_string_lossy().starts_with('.'))
+    };
+    let mut paths = below(directory)?;
+    paths.retain(|path| !hidden(path) && !given.contains(path));
+    let paths = paths.iter().map(|path| path.to_string_lossy());
+    let mut paths: Vec<_> = paths.map(|path| path.replace('\\', "/")).collect();
+    paths.sort();
+    Ok(paths)
+}
+
+/// The files below a directory, as paths in it.
+fn below(directory: &Path) -> io::Result<Vec<PathBuf>> {
     let mut paths = Vec::new();
     let mut folders = vec![PathBuf::new()];
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(directory.join(&folder))? {
             let entry = entry?;
             let path = folder.join(entry.file_name());
-            let name = entry.file_name();
-            if name.to_string_lossy().starts_with('.') || given.contains(&path) {
-                continue;
-            }
             match entry.file_type()?.is_dir() {
                 true => folders.push(path),
-                false => paths.push(path.to_string_lossy().replace('\\', "/")),
+                false => paths.push(path),
             }
         }
     }
-    paths.sort();
     Ok(paths)
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

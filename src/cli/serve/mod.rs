@@ -2,10 +2,13 @@
 
 mod jobs;
 
+#[cfg(unix)]
+pub use jobs::stop;
+
 use super::page::{Program, notes, with};
 use super::{Failure, print};
 use clap::{Args, value_parser};
-use jobs::{Asked, Jobs};
+use jobs::{Asked, Jobs, Seen};
 use oxhttp::Server;
 use oxhttp::model::header::{CACHE_CONTROL, CONTENT_TYPE, HOST, ORIGIN};
 use oxhttp::model::{Body, HeaderMap, Method, Request, Response, StatusCode};
@@ -91,14 +94,7 @@ impl Site {
         let result = match (request.method(), rest.trim_start_matches('/')) {
             (&Method::POST, "") => self.begin(request.body_mut()),
             (&Method::GET, job) => match job.split_once('/') {
-                None => {
-                    let from = query
-                        .strip_prefix("from=")
-                        .and_then(|from| from.parse().ok());
-                    self.jobs
-                        .look(job, from.unwrap_or(0))
-                        .map(|state| json(&state))
-                }
+                None => self.jobs.look(job, seen(&query)).map(|state| json(&state)),
                 Some((job, file)) => self
                     .jobs
                     .file(job, &decoded(file))
@@ -126,6 +122,18 @@ impl Site {
         let asked: Asked = serde_json::from_str(&text).map_err(|error| error.to_string())?;
         let id = self.jobs.begin(asked)?;
         Ok(json(&serde_json::json!({ "id": id })))
+    }
+}
+
+/// Bytes that a page has seen, by the query of its address: `from=BYTE&series=BYTE`.
+fn seen(query: &str) -> Seen {
+    let value = |name| {
+        let mut pairs = query.split('&').filter_map(|pair| pair.split_once('='));
+        pairs.find(|pair| pair.0 == name)?.1.parse().ok()
+    };
+    Seen {
+        said: value("from").unwrap_or(0),
+        series: value("series"),
     }
 }
 
