@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { ChangeColumn, UNKNOWN_X } from "../../../src/cli/page/column.js";
 import { Dump, edge, firstAt, indexAt, valueAt } from "../../../src/cli/page/dump.js";
 import { Extremes } from "../../../src/cli/page/extremes.js";
-import { collectColumns, fixedPointText, pixelColumns, shownNumbers, valueText } from "../../../src/cli/page/valueformat.js";
+import { collectColumns, fixedPointText, pixelColumns, realUnits, shownNumbers, valueText } from "../../../src/cli/page/valueformat.js";
 import { ROW_HEIGHT, WaveRows, scopeRows, signalRow } from "../../../src/cli/page/waverows.js";
 import { TimeWindow, roundStep, secondsText } from "../../../src/cli/page/waveview.js";
 
@@ -211,4 +211,14 @@ test("rows move with their groups", () => {
   assert.equal(rows.all.indexOf(last), 4);
   rows.remove(group[0]);
   assert.equal(rows.all.length, 3);
+});
+
+test("counts are real units by the settings of the run", () => {
+  const units = (settings) => realUnits({ settings }).map(({ name, scale }) => [name, scale]);
+  assert.deepEqual(units({ counts_per_mm: 5000 }), [["mm", 1 / 5000]]);
+  assert.deepEqual(units({ counts_per_mm: [200, 200, 100], counts_per_rev: 90000 }), [["mm", 1 / 200], ["mm", 1 / 100], ["deg", 360 / 90000]]);
+  assert.deepEqual(units(undefined), []);
+  const signal = /** @type {any} */ ({ kind: "bits", width: 16, table: null });
+  const [{ name, scale }] = realUnits({ settings: { counts_per_mm: 200 } });
+  assert.equal(valueText(0xffff - 99, signal, { radix: "signed", fraction: 2, scale, unit: name }), "-0.125 mm");
 });

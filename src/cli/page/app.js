@@ -21,6 +21,7 @@ import { summaryView } from "./summary.js";
 import { Tabs } from "./tabs.js";
 import { givenIn } from "./toml.js";
 import { listsOfTables } from "./tomlvalue.js";
+import { realUnits } from "./valueformat.js";
 import { readVcd } from "./vcd.js";
 import { WavesPane } from "./waves.js";
 
@@ -307,7 +308,7 @@ class Page {
     const save = fileWith(result, ".gtkw");
     if (!fst) return;
     const dump = await readFst(fst);
-    await this.waves.show(dump, { clockHz, save: save && readSave(new TextDecoder().decode(save)) });
+    await this.waves.show(dump, { clockHz, save: save && readSave(new TextDecoder().decode(save)), units: realUnits(summary) });
     const top = dump.signals[0]?.scope[0] ?? summary.circuit;
     if (this.runner) await this.circuit.show(top, [top]).catch(() => this.circuit.show(summary.circuit, [top]));
   }

@@ -28,6 +28,7 @@ export class RowMenu {
   #scale = element("input", { type: "number", step: "any" });
   #unit = element("input", { type: "text", size: 8, maxlength: 16 });
   #title = element("h3", {});
+  #real = element("div", { class: "buttons" });
 
   /** @param {(row: WaveRow) => void} changed */
   constructor(changed) {
@@ -52,11 +53,33 @@ export class RowMenu {
         field("Fraction bits", this.#fraction),
         field("Multiplied by", this.#scale),
         field("Unit", this.#unit),
+        this.#real,
         field("Curve", this.#curve),
         field("Height in rows", this.#height),
         element("button", { type: "submit" }, "Close"),
       ),
     );
+  }
+
+  /**
+   * Offers units in which counts of the run are real ones.
+   * @param {import("./valueformat.js").RealUnit[]} units
+   */
+  offer(units) {
+    const buttons = units.map(({ name, scale, text }) =>
+      element("button", { type: "button", onclick: () => this.#show({ radix: "signed", scale: String(scale), unit: name }) }, text));
+    this.#real.replaceChildren(...buttons);
+  }
+
+  /**
+   * Puts a unit into the form and takes it; fraction bits stay.
+   * @param {{ radix: string, scale: string, unit: string }} format
+   */
+  #show({ radix, scale, unit }) {
+    if (!this.#radix.disabled) this.#radix.value = radix;
+    this.#scale.value = scale;
+    this.#unit.value = unit;
+    this.#take();
   }
 
   /**

@@ -15,6 +15,25 @@ import { firstAt } from "./dump.js";
  * @property {string} [unit]
  */
 
+/**
+ * A unit of length or angle, how much of it a count is, and a text for both.
+ * @typedef {{ name: string, scale: number, text: string }} RealUnit
+ */
+
+/**
+ * Returns the units in which positions of a run, which are counts, are real ones.
+ * @param {any} summary JSON of `run --json`
+ * @returns {RealUnit[]}
+ */
+export function realUnits({ settings }) {
+  // A value for all axes, or one for each.
+  const values = (/** @type {unknown} */ given) => [...new Set([given].flat().map(Number))].filter((count) => count > 0);
+  return [
+    ...values(settings?.counts_per_mm).map((count) => ({ name: "mm", scale: 1 / count, text: `Counts as mm, 1/${count}` })),
+    ...values(settings?.counts_per_rev).map((count) => ({ name: "deg", scale: 360 / count, text: `Counts as deg, 360/${count}` })),
+  ];
+}
+
 /** Radices in the order in which a menu lists them. */
 export const RADICES = /** @type {const} */ (["binary", "hex", "unsigned", "signed", "state"]);
 

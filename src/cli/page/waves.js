@@ -119,10 +119,12 @@ export class WavesPane extends EventTarget {
   /**
    * Shows a dump.
    * @param {Dump} dump
-   * @param {{clockHz?: number, save?: import("./savefile.js").SaveFile | null}} [given] rate of the
-   *   reference clock, which is found in the dump if it is 0 or left out, and the first rows
+   * @param {{clockHz?: number, save?: import("./savefile.js").SaveFile | null, units?: import("./valueformat.js").RealUnit[]}} [given]
+   *   rate of the reference clock, which is found in the dump if it is 0 or left out, the first
+   *   rows, and real units of counts
    */
-  async show(dump, { clockHz = 0, save = null } = {}) {
+  async show(dump, { clockHz = 0, save = null, units = [] } = {}) {
+    this.#menu.offer(units);
     if (clockHz > 0) dump.setClock(clockHz);
     else await dump.findClock();
     this.#dump = dump;
