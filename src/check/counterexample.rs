@@ -64,6 +64,16 @@ impl Violation {
         &self.ports
     }
 
+    /// Returns the violated invariant.
+    pub fn invariant(&self) -> &str {
+        &self.invariant
+    }
+
+    /// Returns the signals at fault.
+    pub fn signals(&self) -> &[String] {
+        &self.fault.signals
+    }
+
     /// Returns the tick at fault.
     pub fn tick(&self) -> u64 {
         (self.ports.len() as u64).saturating_sub(1)
@@ -111,6 +121,11 @@ impl<C: Circuit> Counterexample<C> {
         }
     }
 
+    /// Returns the counterexample without the circuit's type.
+    pub fn into_violation(self) -> Violation {
+        self.violation
+    }
+
     /// Replays the sequence on `circuit` and writes the waves and their save file into `dir`,
     /// named after circuit and invariant. Returns their paths.
     ///
@@ -152,7 +167,7 @@ pub(super) fn save(
 const STEM: usize = 200;
 
 /// Returns the stem of the file names. Names that would be lost or cut get a mark of their own.
-fn stem(circuit: &str, invariant: &str) -> String {
+pub(crate) fn stem(circuit: &str, invariant: &str) -> String {
     let name = format!("{circuit} {invariant}");
     let plain = |c: char| c.is_ascii_alphanumeric() || " _,.'-".contains(c);
     let written = name

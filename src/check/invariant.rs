@@ -52,6 +52,8 @@ enum Holds<'f, C: Circuit> {
 struct Names {
     /// Names in the order of the checks.
     all: Vec<String>,
+    /// For each invariant that is not the circuit's own: true if it is not checked.
+    left_out: Vec<bool>,
     /// The circuit's own properties; these come first, in their order. A step property is about the
     /// coming edge.
     own: Vec<Own>,
@@ -102,6 +104,33 @@ impl Names {
             }
         }
         names
+    }
+
+    /// Returns the names of the invariants that are checked, in order.
+    fn checked(&self) -> impl Iterator<Item = &str> {
+        let own = self.own.len();
+        let is_checked = move |at: usize| at < own || self.is_checked(at - own);
+        let all = self.all.iter().enumerate();
+        all.filter(move |(at, _)| is_checked(*at))
+            .map(|(_, name)| name.as_str())
+    }
+
+    /// Leaves out all invariants but those of these names.
+    fn keep_only(&mut self, names: &[String]) {
+        let own = self.own.len();
+        let others = &self.all[own..];
+        self.left_out = others.iter().map(|name| !names.contains(name)).collect();
+        let mut kept = self.all[..own].iter().map(|name| names.contains(name));
+        self.own.retain(|_| kept.next().unwrap_or_default());
+        let all = self.all.drain(..own);
+        let own: Vec<_> = all.filter(|name| names.contains(name)).collect();
+        self.all.splice(..0, own);
+    }
+
+    /// True if an invariant that is not the circuit's own is checked.
+    #[inline]
+    fn is_checked(&self, other: usize) -> bool {
+        !self.left_out.get(other).copied().unwrap_or_default()
     }
 
     /// Returns the first violated property of the circuit's own. Inputs that break an assumption
@@ -181,9 +210,16 @@ impl<'f, C: Circuit> Invariants<'f, C> {
         self
     }
 
+    /// Leaves out all properties but those of these names.
+    #[must_use]
+    pub fn only(mut self, names: &[String]) -> Self {
+        self.names.keep_only(names);
+        self
+    }
+
     /// Returns the names, in order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.names.all.iter().map(String::as_str)
+        self.names.checked()
     }
 
     /// Returns the indices of the circuit's own properties.
@@ -198,7 +234,7 @@ impl<'f, C: Circuit> Invariants<'f, C> {
 
     /// True if not all properties are the circuit's own.
     pub(super) fn has_others(&self) -> bool {
-        !self.others.is_empty()
+        (0..self.others.len()).any(|other| self.names.is_checked(other))
     }
 
     /// True if a property reads the registers after the edge.
@@ -217,6 +253,9 @@ impl<'f, C: Circuit> Invariants<'f, C> {
             return Err(violated);
         }
         for (at, property) in self.others.iter().enumerate() {
+            if !self.names.is_checked(at) {
+                continue;
+            }
             let verdict = match (property, next) {
                 (Holds::Always(holds), _) => holds(now),
                 (Holds::Step(holds), Some(next)) => holds(now, next),

@@ -81,6 +81,7 @@ mod sweep;
 mod visited;
 
 pub use blamed::UnknownSignal;
+pub(crate) use counterexample::stem;
 pub use counterexample::{Counterexample, Violation};
 pub use coverage::{Coverage, Untoggled};
 pub use drive::{Drive, Driven, drive, play};

@@ -65,6 +65,18 @@ pub fn entries(names: &[String]) -> Result<Vec<&'static Entry>, Failure> {
     Ok(entries)
 }
 
+/// Returns the indices of the texts that contain `wanted`; that of a text that is `wanted` itself
+/// alone.
+pub fn matching<'t>(wanted: &str, texts: impl Iterator<Item = &'t str> + Clone) -> Vec<usize> {
+    if let Some(index) = texts.clone().position(|text| text == wanted) {
+        return vec![index];
+    }
+    let wanted = wanted.to_lowercase();
+    let contain = texts.enumerate();
+    let contain = contain.filter(|(_, text)| text.to_lowercase().contains(&wanted));
+    contain.map(|(index, _)| index).collect()
+}
+
 /// Refuses changed keys of all circuits at once.
 pub fn no_circuit(changes: &Changes, command: &str) -> Failure {
     if changes.with.is_some() {

@@ -10,7 +10,7 @@ use super::{Failure, json, to_standard_output};
 use clap::Args;
 use motion_rtl::hdl::Declaration;
 use motion_rtl::netlist::Role;
-use motion_rtl::registry::{AnyModel, Base, CATALOGUE, Entry, Key};
+use motion_rtl::registry::{AnyModel, Base, CATALOGUE, Entry, Key, Pair};
 use motion_rtl::sim::RunError;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -46,6 +46,9 @@ struct Circuit {
     outputs: Vec<Port>,
     registers: usize,
     nets: usize,
+    /// Properties of the small circuit that `check` proves, and its law.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    properties: Option<Vec<String>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     connections: Option<Connections>,
 }
@@ -98,11 +101,13 @@ pub fn list(arguments: &Arguments) -> Result<(), Failure> {
         },
         Some(name) => {
             let entry = entry(name)?;
-            let made = entry.made(Base::Full, &arguments.changes.pairs(entry)?);
+            let pairs = arguments.changes.pairs(entry)?;
+            let made = entry.made(Base::Full, &pairs);
             let made = made.map_err(|error| refused(entry, error))?;
             let connections = made.connections().map_err(RunError::from)?;
             let mut circuit = circuit(entry, &*made);
             circuit.connections = Some(Connections::of(connections));
+            circuit.properties = Some(properties(entry, &pairs));
             Listing {
                 circuits: vec![circuit],
                 scenarios: Vec::new(),
@@ -143,8 +148,18 @@ fn circuit(entry: &Entry, made: &dyn AnyModel) -> Circuit {
         outputs: outputs.map(port).collect(),
         registers: count(Role::Register),
         nets: count(Role::Net),
+        properties: None,
         connections: None,
     }
+}
+
+/// Returns the properties of the small circuit that are proved, and the statement of its law.
+fn properties(entry: &Entry, pairs: &[Pair]) -> Vec<String> {
+    let proof = entry.proof(pairs).ok();
+    let mut properties = proof.map_or_else(Vec::new, |circuit| circuit.invariants());
+    let law = entry.law(pairs).ok();
+    properties.extend(law.map(|law| law.law().to_owned()));
+    properties
 }
 
 fn text(listing: &Listing) -> String {
@@ -163,6 +178,10 @@ fn text(listing: &Listing) -> String {
         }
         let _ = writeln!(text, "    in      {}", ports(&circuit.inputs));
         let _ = writeln!(text, "    out     {}", ports(&circuit.outputs));
+        for (index, property) in circuit.properties.iter().flatten().enumerate() {
+            let of = if index == 0 { "checked" } else { "" };
+            let _ = writeln!(text, "    {of:<7} {property}");
+        }
         if let Some(connections) = &circuit.connections {
             text.push_str(&connections.text());
         }

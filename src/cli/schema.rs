@@ -1,7 +1,7 @@
-//! `schema`: a JSON schema of the summaries of `run`, the report of `check`, and errors.
+//! `schema`: a JSON schema of the summaries of `run`, the reports of `check` and of a single fault, and errors.
 
 use super::{
-    Failure, arc, check, errors, json as output, keys, lead_angle, linear, machine, pulse,
+    Failure, arc, check, errors, json as output, keys, lead_angle, linear, machine, mutate, pulse,
     to_standard_output, trajectory, waves_of,
 };
 use motion_rtl::settings;
@@ -79,6 +79,7 @@ fn of_all() -> Value {
         of::<waves_of::Summary>("waves_of", None),
         of::<check::Report>("check", None),
         of::<check::FullReport>("check_full", None),
+        of::<mutate::SingleReport>("fault", None),
         of::<errors::Output<'_>>("error", None),
     ];
     let references = kinds
@@ -86,7 +87,7 @@ fn of_all() -> Value {
         .map(|(kind, _)| json!({ "$ref": format!("#/$defs/{kind}") }));
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "summary of a run, report of a check, or error",
+        "title": "summary of a run, report of a check or of a fault, or error",
         "anyOf": references.collect::<Vec<_>>(),
         "$defs": kinds.into_iter().collect::<Map<_, _>>(),
     })

@@ -260,7 +260,8 @@ fn agree(entry: &Entry, model: &Elaborated, what: &str) -> bool {
             assert!(proved, "{what}, but a visit of all states proves it");
             false
         }
-        Verdict::Broken { report, .. } => {
+        Verdict::Broken(violation) => {
+            let report = violation.to_string();
             let refuted = all.iter().filter(|it| is_refuted(it));
             let named = refuted.clone().any(|it| report.contains(&it.property));
             assert!(named, "{what}, but {report}");
@@ -347,7 +348,7 @@ fn find(entries: &[&Entry], limit: Duration) {
             }
             let all = concluded(&full, limit);
             let proved = all.iter().all(|it| it.conclusion.is_proved());
-            let broken = matches!(verdict, Verdict::Broken { .. });
+            let broken = matches!(verdict, Verdict::Broken(_));
             let name = format!("{}, {name}", entry.name);
             assert!(!broken || !proved, "{name}: proved in spite of it");
             found += usize::from(all.iter().any(is_refuted));

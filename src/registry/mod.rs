@@ -34,7 +34,7 @@ mod scaled;
 mod sweep;
 
 pub use crate::settings::{Pair, PairError};
-pub use campaign::{Campaign, CampaignError, Fate, Found, Suspect};
+pub use campaign::{Campaign, CampaignError, Fate, Found, Single, Suspect, Witness};
 pub use circuits::CATALOGUE;
 pub use entry::{Base, Entry};
 pub use keys::{Key, Refused, WrongPair};

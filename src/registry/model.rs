@@ -2,17 +2,16 @@
 
 use crate::check::{
     CheckError, Concluded, Drive, Driven, InductError, Outcome, Progress, Proof, Specified,
-    Violation, conclude, prove,
+    Violation, conclude, reach,
 };
 use crate::engine::EngineError;
 use crate::hdl::{Circuit, Declarations};
 use crate::sim::{Elaborated, RunError};
 use crate::trace::chart::{Chart, ChartFailure};
-use crate::trace::{Clock, Layout, LayoutError};
+use crate::trace::{Layout, LayoutError};
 use crate::verilog::{Connections, Verilog};
 use crate::vhdl::Vhdl;
 use std::io::Write;
-use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// A circuit, its type forgotten.
@@ -146,8 +145,8 @@ pub struct ProofSearch<'a> {
     pub transitions: u64,
     /// Time at which it is given up.
     pub until: Option<Instant>,
-    /// Directory for a counterexample as VCD and save file.
-    pub waves: Option<&'a Path>,
+    /// Names of the invariants to prove; all by default.
+    pub invariants: Option<&'a [String]>,
     /// A netlist of the circuit to take in place of its own.
     pub model: Option<Elaborated>,
 }
@@ -158,7 +157,7 @@ impl Default for ProofSearch<'_> {
             states: 1 << 26,
             transitions: u64::MAX,
             until: None,
-            waves: None,
+            invariants: None,
             model: None,
         }
     }
@@ -171,12 +170,7 @@ pub enum Verdict<P = Proof> {
     /// Every invariant holds.
     Proved(P),
     /// An invariant does not hold.
-    Broken {
-        /// Tick, invariant, signals, and a table of the last ticks.
-        report: String,
-        /// The waves of it, where they were asked for.
-        waves: Result<Vec<PathBuf>, RunError>,
-    },
+    Broken(Violation),
     /// More states than the limit.
     Undecided(Progress),
 }
@@ -192,7 +186,12 @@ impl<C: Specified> AnyCircuit for C {
         search: &ProofSearch<'_>,
         progress: &mut dyn FnMut(&Progress),
     ) -> Result<Verdict, CheckError> {
-        let mut reach = prove(self)
+        let mut invariants = Specified::invariants(self);
+        if let Some(names) = search.invariants {
+            invariants = invariants.only(names);
+        }
+        let mut reach = reach(self, &invariants)
+            .inputs(|i| self.applies(i))
             .limit(search.states)
             .transitions(search.transitions)
             .progress(progress);
@@ -206,12 +205,7 @@ impl<C: Specified> AnyCircuit for C {
         Ok(match outcome {
             Outcome::Proof(proof) => Verdict::Proved(proof),
             Outcome::Limit(progress) => Verdict::Undecided(progress),
-            Outcome::Counterexample(found) => Verdict::Broken {
-                report: found.to_string(),
-                waves: search.waves.map_or(Ok(Vec::new()), |directory| {
-                    found.save(self, Clock::default(), directory)
-                }),
-            },
+            Outcome::Counterexample(found) => Verdict::Broken(found.into_violation()),
         })
     }
 }

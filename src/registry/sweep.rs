@@ -3,9 +3,7 @@
 use super::{AnyModel, Verdict};
 use crate::check::{CheckError, Law, Swept, cases, sweep};
 use crate::sim::Elaborated;
-use crate::trace::Clock;
 use std::ops::Range;
-use std::path::Path;
 
 /// A law with its circuit, its type forgotten.
 pub trait AnySweep: AnyModel {
@@ -16,8 +14,8 @@ pub trait AnySweep: AnyModel {
     /// # Errors
     /// The inputs are too wide to be counted.
     fn cases(&self) -> Result<u64, CheckError>;
-    /// Checks the cases with these indices; `waves` is where the first that is wrong is written as
-    /// VCD and save file. A `model` is a netlist of the law to take in place of its own.
+    /// Checks the cases with these indices. A `model` is a netlist of the law to take in place of its
+    /// own.
     ///
     /// # Errors
     /// The inputs are too wide to be counted.
@@ -25,7 +23,6 @@ pub trait AnySweep: AnyModel {
         &self,
         range: Range<u64>,
         model: Option<Elaborated>,
-        waves: Option<&Path>,
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<Verdict<u64>, CheckError>;
 }
@@ -43,7 +40,6 @@ impl<W: Law> AnySweep for W {
         &self,
         range: Range<u64>,
         model: Option<Elaborated>,
-        waves: Option<&Path>,
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<Verdict<u64>, CheckError> {
         let mut swept = sweep(self).range(range).progress(progress);
@@ -52,12 +48,7 @@ impl<W: Law> AnySweep for W {
         }
         Ok(match swept.run()? {
             Swept::Held(cases) => Verdict::Proved(cases),
-            Swept::Counterexample(found) => Verdict::Broken {
-                report: found.to_string(),
-                waves: waves.map_or(Ok(Vec::new()), |directory| {
-                    found.save(self, Clock::default(), directory)
-                }),
-            },
+            Swept::Counterexample(found) => Verdict::Broken(found.into_violation()),
         })
     }
 }

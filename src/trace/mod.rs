@@ -5,6 +5,7 @@
 //! registers of tick n + 1 appear at (n + 1)·P.
 
 mod behind;
+mod both;
 pub mod chart;
 mod clock;
 mod dump;
@@ -25,6 +26,7 @@ mod vcd;
 mod walk;
 mod wave_file;
 
+pub(crate) use both::{Both, play_both};
 pub use clock::{Clock, ClockError};
 pub(crate) use dump::Dump;
 pub use fst::Fst;

@@ -1,6 +1,6 @@
 //! `check` and `list`.
 
-use super::support::{Bench, keys};
+use super::support::{Bench, keys, list};
 use motion_rtl::registry::CATALOGUE;
 use predicates::prelude::*;
 use serde_json::json;
@@ -104,6 +104,66 @@ fn the_literal_variant_breaks_and_shows_how() {
         .collect();
     endings.sort();
     assert_eq!(endings, ["gtkw", "vcd"]);
+}
+
+#[test]
+fn only_the_properties_that_contain_a_text_are_proved() {
+    let bench = Bench::new();
+    let circuit = &bench.json(&["list", "unit_law"])["circuits"][0];
+    let all = list(circuit, "properties");
+    assert!(all.len() > 2, "{circuit}");
+    let proved = |property: &str| {
+        let report = bench.json(&["check", "unit_law", "--property", property]);
+        list(&report, "rows")[0]["invariants"].clone()
+    };
+    assert_eq!(proved(""), json!(all));
+    for property in all {
+        assert_eq!(proved(property.as_str().unwrap()), json!([property]));
+    }
+    let depend = "COUNT, toggle and step depend only";
+    let one = proved(depend);
+    assert_eq!(one.as_array().map(Vec::len), Some(1), "{one}");
+    // The literal variant violates this property, and not all others.
+    let literal = ["check", "unit_law", "--set", "variant=literal"];
+    let with = |property: &str| bench.run(&[&literal[..], &["--property", property]].concat());
+    assert_eq!(with(depend).code, 1);
+    let mut held = 0;
+    for property in all.iter().filter(|property| **property != one[0]) {
+        held += usize::from(with(property.as_str().unwrap()).code == 0);
+    }
+    assert!(held > 0);
+}
+
+#[test]
+fn a_text_that_no_property_contains_is_refused() {
+    let bench = Bench::new();
+    bench
+        .command(&["check", "sync_stage", "--property", "nonsense"])
+        .assert()
+        .code(2)
+        .stderr(predicate::str::starts_with(
+            "error: --property: no property of sync_stage contains nonsense; allowed: step is low",
+        ));
+    let text = "--property: no property of any circuit contains nonsense; allowed: a part of a \
+                property's text; `motion-rtl list NAME` shows them";
+    bench.refuse(&["check", "--property", "nonsense"], text);
+    let done = bench.run(&["check", "sync_stage", "--full", "--property", "step"]);
+    assert_eq!(done.code, 2);
+    assert!(
+        done.stderr.contains("cannot be used with '--property"),
+        "{}",
+        done.stderr
+    );
+    // A circuit that is named has to have it; without names, the others are left out.
+    let low = "step is low in the tick after RST";
+    let done = bench.run(&["check", "sync_stage", "enable_counter", "--property", low]);
+    assert_eq!(done.code, 2, "{}", done.stdout);
+    let report = bench.json(&["check", "--property", low]);
+    let rows = list(&report, "rows").iter();
+    assert!(rows.clone().any(|row| row["circuit"] == "sync_stage"));
+    for row in rows {
+        assert_eq!(row["invariants"], json!([low]));
+    }
 }
 
 #[test]
@@ -328,6 +388,8 @@ fn a_circuit_is_listed_with_what_drives_its_parts() {
     });
     assert_eq!(*half_period, expected);
     assert_eq!(connections["outputs"][0]["driver"], "sync.step");
+    let properties = keys(&list["circuits"][0]);
+    assert!(properties.contains(&"properties"), "{properties:?}");
     let text = bench.succeed(&["list", "axis"]);
     let part = "    generator: pulse_generator\n      half_period[16] = memory.half_period\n";
     assert!(text.contains(part), "{text}");

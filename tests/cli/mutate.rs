@@ -1,8 +1,10 @@
 //! `mutate`: single faults, and what finds them.
 
-use super::support::Bench;
+use super::json_schema::violations;
+use super::summaries::schema;
+use super::support::{Bench, list, words};
 use expect_test::expect;
-use serde_json::json;
+use serde_json::{Value, json};
 
 /// A chart that sees one period and nothing of the tick after it.
 const NOTE: &str = "\
@@ -159,4 +161,159 @@ fn notes_that_cannot_be_read_are_refused() {
         error: invalid value '0' for '--ticks <TICKS>': 0 is not in 1..=100000000
         error: invalid value '101' for '--least <PERCENT>': 101 is not in 0..=100
     "#]].assert_eq(&said);
+}
+
+/// A fault that the chart and the proof of the counter find.
+const FAULT: [&str; 6] = [
+    "mutate",
+    "enable_counter",
+    "--charts",
+    "note.md",
+    "--fault",
+    "enable: low",
+];
+
+#[test]
+fn a_single_fault_is_shown_with_each_check_that_finds_it() {
+    let bench = Bench::with("note.md", NOTE);
+    let report = bench.json(&[&FAULT[..], &["--out", "found"]].concat());
+    let listed = bench.json(&FAULT[..4]);
+    let schema = schema();
+    let kind = &schema["$defs"]["fault"];
+    assert_eq!(violations(&schema, kind, &report, "fault"), [""; 0]);
+    let number = report["number"].as_u64().unwrap() as usize;
+    let told = &listed["circuits"][0]["suspects"][number - 1];
+    assert_eq!(told["number"], number);
+    assert_eq!(told["fault"], report["fault"]);
+    assert_eq!(told["by"], "a period of three");
+
+    let found = list(&report, "found");
+    let chart = &found[0];
+    assert_eq!(
+        [&chart["by"], &chart["name"]],
+        ["chart", "a period of three"]
+    );
+    assert_eq!(chart["tick"], 2);
+    let first = "tick 2: enable is 0, 1 without the fault";
+    assert_eq!(chart["first_difference"], first);
+    // Every property is either violated or holds.
+    let violated = found.iter().filter(|run| run["by"] == "proof");
+    let violated = violated.map(|run| run["name"].clone());
+    let mut properties: Vec<_> = violated.collect();
+    assert!(!properties.is_empty(), "{report}");
+    assert_eq!(report["undecided"], json!([]));
+    properties.extend(list(&report, "hold").iter().cloned());
+    let circuit = &bench.json(&["list", "enable_counter"])["circuits"][0];
+    let mut all = list(circuit, "properties").to_vec();
+    all.sort_by_key(Value::to_string);
+    properties.sort_by_key(Value::to_string);
+    assert_eq!(properties, all);
+
+    for run in found {
+        let [vcd, save] = list(run, "waves") else {
+            panic!("{run}")
+        };
+        let [vcd, save] = [vcd, save].map(|path| bench.read(path.as_str().unwrap()));
+        let paths = ["enable", "without_fault.enable"];
+        let paths = paths.map(|path| format!("enable_counter.{path}"));
+        let ticks = words(&vcd, &paths.each_ref().map(String::as_str));
+        // The run ends with the tick at which the fault shows.
+        let tick = run["tick"].as_u64().unwrap() as usize;
+        if run["by"] == "proof" {
+            assert_eq!(ticks.len(), tick + 1, "{run}");
+        }
+        assert!(ticks.iter().all(|bits| bits[0] == 0), "{ticks:?}");
+        assert!(ticks.iter().any(|bits| bits[1] == 1), "{ticks:?}");
+        assert!(save.contains("without_fault"), "{save}");
+    }
+}
+
+#[test]
+fn what_finds_a_single_fault_is_printed() {
+    let bench = Bench::with("note.md", NOTE);
+    let text = bench.succeed(&[&FAULT[..], &["--out", "found"]].concat());
+    let expected =
+        "found by chart: a period of three\n  line 4: tick 2: enable is _, the chart says #\n";
+    assert!(text.contains(expected), "{text}");
+    assert!(text.contains("\nfound by property: "), "{text}");
+    let first = "\n  first difference: tick 2: enable is 0, 1 without the fault\n";
+    assert!(text.contains(first), "{text}");
+    assert!(text.contains("\n  waves: found/enable_counter_"), "{text}");
+    // `clean` knows the waves.
+    bench.succeed(&["clean", "found", "--yes"]);
+    assert!(
+        !bench.path("found").read_dir().is_ok_and(|mut files| {
+            files.any(|file| file.unwrap().path().extension().is_some())
+        })
+    );
+}
+
+#[test]
+fn a_fault_that_nothing_finds_has_the_waves_of_a_random_run() {
+    let note = "\
+```chart difference_engine nothing happens
+tick       0
+> modulus  8
+= nearest  0
+```
+";
+    let bench = Bench::with("note.md", note);
+    let fault = ["--fault", "d1.data: crossed", "--out", "found"];
+    let mutate = ["mutate", "difference_engine", "--charts", "note.md"];
+    let report = bench.json(&[&mutate[..], &fault].concat());
+    assert_eq!(report["found"], json!([]));
+    let random = &report["random"];
+    assert_eq!(
+        [&random["by"], &random["tick"]],
+        [&json!("random"), &json!(132)]
+    );
+    let [vcd, _] = list(random, "waves") else {
+        panic!("{random}")
+    };
+    let vcd = bench.read(vcd.as_str().unwrap());
+    let paths = [
+        "difference_engine.nearest",
+        "difference_engine.without_fault.nearest",
+    ];
+    let ticks = words(&vcd, &paths);
+    let differs = ticks.iter().position(|bits| bits[0] != bits[1]);
+    assert_eq!((differs, ticks.len()), (Some(132), 133));
+}
+
+#[test]
+fn a_fault_that_is_not_in_the_list_is_refused() {
+    let bench = Bench::with("note.md", NOTE);
+    let mut said = String::new();
+    for fault in ["0", "14", "nonsense", "enable_counter.rs"] {
+        let mutate = ["mutate", "enable_counter", "--charts", "note.md", "--fault"];
+        let done = bench.run(&[&mutate[..], &[fault]].concat());
+        assert_eq!((done.code, done.stdout.as_str()), (2, ""), "{fault}");
+        said += done.stderr.split(';').next().unwrap_or_default();
+        said += "\n";
+    }
+    let first = said.split(" (src").next().unwrap_or_default();
+    assert_eq!(
+        first,
+        "error: --fault: enable_counter has no fault 0\n\
+         error: --fault: enable_counter has no fault 14\n\
+         error: --fault: enable_counter has no fault nonsense\n\
+         error: --fault: enable_counter.rs is a part of several: 1"
+    );
+    let allowed = "allowed: one circuit, as in `mutate comparator --fault 1`";
+    for (circuits, problem) in [
+        (&[][..], "missing beside --fault"),
+        (&["sync_stage", "integrator"], "--fault takes one circuit"),
+    ] {
+        let mutate = [&["mutate"], circuits, &["--fault", "1"]].concat();
+        bench.refuse(&mutate, &format!("CIRCUIT: {problem}; {allowed}"));
+    }
+    for other in [&["--unseen"][..], &["--least", "9"]] {
+        let done = bench.run(&[&["mutate", "sync_stage", "--fault", "1"], other].concat());
+        assert_eq!(done.code, 2, "{other:?}");
+    }
+    assert_eq!(
+        bench.run(&["mutate", "sync_stage", "--out", "found"]).code,
+        2
+    );
+    assert!(!bench.path("found").exists());
 }

@@ -16,7 +16,7 @@ fn file(name: &str) -> String {
     fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).unwrap()
 }
 
-fn schema() -> Value {
+pub fn schema() -> Value {
     serde_json::from_str(&file("rtl_notes/summary.schema.json")).unwrap()
 }
 

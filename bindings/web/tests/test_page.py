@@ -288,9 +288,41 @@ def test_faults_are_found_by_the_charts_of_the_notes(opened):
     report = json.loads(program("mutate", "sync_stage", "--json"))["circuits"][0]
     rows = opened.locator(".law-result tbody tr").all()
     # The program for browsers may be compiled with paths from the root.
-    shown = [[re.sub("^/.*/src/", "src/", text) for text in row.locator("td").all_inner_texts()[:3]] for row in rows]
+    shown = [[re.sub("^/.*/src/", "src/", text) for text in row.locator("td").all_inner_texts()[1:4]] for row in rows]
     assert shown == [[found["fault"], found["fate"], found.get("by", "")] for found in report["suspects"]]
     assert any(fate == "chart" for _, fate, _ in shown)
+
+
+def test_one_property_is_proved(opened):
+    opened.get_by_role("tab", name="Try a law").click()
+    listed = json.loads(program("list", "unit_law", "--json"))["circuits"][0]["properties"]
+    opened.wait_for_selector("#law-property option:nth-child(2)", state="attached")
+    assert opened.locator("#law-property option").all_inner_texts() == ["all", *listed]
+    opened.select_option("#law-property", listed[1])
+    opened.get_by_role("button", name="Prove").click()
+    opened.wait_for_selector(".law-result .good")
+    assert opened.locator(".law-result li").all_inner_texts() == [listed[1]]
+
+
+def test_a_single_fault_and_its_waves(opened, tmp_path):
+    opened.get_by_role("tab", name="Try a law").click()
+    opened.wait_for_selector("#law-circuit")
+    opened.select_option("#law-circuit", "enable_counter")
+    opened.get_by_role("button", name="Inject faults").click()
+    opened.get_by_role("button", name="Try fault 1:").click()
+    opened.wait_for_selector(".law-fault")
+    width = json.loads(program("list", "enable_counter", "--json"))["circuits"][0]["keys"]["width"]["small"]
+    words = ["mutate", "enable_counter", "--width", width, "--fault", "1", "--json", "--out", tmp_path]
+    single = json.loads(program(*words))
+    headings = opened.locator(".law-fault h3").all_inner_texts()
+    properties = [run["name"] for run in single["found"] if run["by"] == "proof"]
+    assert properties and len(headings) == len(single["found"])
+    for heading, name in zip(headings, properties):
+        assert heading == f"found by the property {name}"
+    opened.get_by_role("button", name="Show it in the waves").last.click()
+    assert opened.locator("#pane-waves").is_visible()
+    values = "() => motionRtl.waves.valueAtCursor('enable_counter.without_fault.enable')"
+    opened.wait_for_function(values)
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -18,6 +18,7 @@ pub use report::Report;
 use shard::Shard;
 use std::path::PathBuf;
 use std::time::Duration;
+pub use work::Waves;
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]
@@ -27,6 +28,9 @@ pub struct Arguments {
     circuits: Vec<String>,
     #[command(flatten)]
     changes: Changes,
+    /// Proves only the properties whose text contains TEXT; `list NAME` shows the properties.
+    #[arg(long, value_name = "TEXT", conflicts_with = "full")]
+    property: Option<String>,
     /// States after which a proof is given up.
     #[arg(long, value_name = "STATES", allow_negative_numbers = true, default_value_t = 1 << 26)]
     limit: u32,
@@ -61,7 +65,7 @@ pub struct Arguments {
         long,
         value_name = "FILES",
         num_args = 1..,
-        conflicts_with_all = ["circuits", "set", "width", "limit", "all_widths", "out", "shard", "full"]
+        conflicts_with_all = ["circuits", "set", "width", "property", "limit", "all_widths", "out", "shard", "full"]
     )]
     merge: Vec<PathBuf>,
     /// Prints the table as JSON.
@@ -95,6 +99,7 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
         let asked = Asked {
             circuits: arguments.circuits.clone(),
             changes: arguments.changes.clone(),
+            property: arguments.property.clone(),
             limit: arguments.limit,
             seconds: arguments.all_widths.map(|limit| limit.as_secs_f64()),
         };

@@ -163,7 +163,14 @@ fn unread() -> Failure {
 fn told(asked: &Asked) -> String {
     let names = asked.circuits.iter().map(|name| format!(" {name}"));
     let names: String = names.collect();
-    format!("check{names}{} --limit {}", asked.changes, asked.limit)
+    let property = asked.property.iter();
+    let property: String = property
+        .map(|text| format!(" --property {text:?}"))
+        .collect();
+    format!(
+        "check{names}{}{property} --limit {}",
+        asked.changes, asked.limit
+    )
 }
 
 /// The parts of a sweep, that of the lower cases first.

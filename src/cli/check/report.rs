@@ -20,6 +20,9 @@ pub struct Asked {
     pub circuits: Vec<String>,
     /// Changed keys, as on the command line.
     pub changes: Changes,
+    /// Text that the properties contain, if only these were asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub property: Option<String>,
     /// States after which a proof is given up.
     pub limit: u32,
     /// Seconds for all widths of a circuit, if they were asked for.
@@ -227,6 +230,7 @@ mod tests {
         let asked = Asked {
             circuits: Vec::new(),
             changes: Changes::default(),
+            property: None,
             limit: 100,
             seconds: None,
         };

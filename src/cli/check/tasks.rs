@@ -3,7 +3,9 @@
 use super::report::{Asked, ITS_BLOCKS, Kind, TOO_WIDE};
 use super::shard::Shard;
 use crate::cli::Failure;
-use crate::cli::chosen::{self, entries};
+use crate::cli::chosen::{self, entries, matching};
+use crate::cli::named;
+use motion_rtl::nearest::did_you_mean;
 use motion_rtl::registry::{AnySweep, Entry, Pair};
 
 /// The most cases of a sweep.
@@ -15,9 +17,32 @@ pub struct Task {
     pub entry: &'static Entry,
     pub pairs: Vec<Pair>,
     pub kind: Kind,
+    /// Text that its properties contain; all if there is none.
+    pub property: Option<String>,
 }
 
 impl Task {
+    /// Returns the properties that are proved, or the statement of the law.
+    fn properties(&self) -> Vec<String> {
+        let proof = || Some(self.entry.proof(&self.pairs).ok()?.invariants());
+        let law = || Some(vec![self.entry.law(&self.pairs).ok()?.law().to_owned()]);
+        let properties = match self.kind {
+            Kind::Proof => proof(),
+            Kind::Sweep => law(),
+        };
+        properties.unwrap_or_default()
+    }
+
+    /// Returns those of the properties that are asked for.
+    pub fn asked(&self, properties: Vec<String>) -> Vec<String> {
+        let Some(text) = &self.property else {
+            return properties;
+        };
+        let all = properties.iter().map(String::as_str);
+        let asked = matching(text, all).into_iter();
+        asked.map(|index| properties[index].clone()).collect()
+    }
+
     /// Name of the circuit.
     pub fn circuit(&self) -> &'static str {
         self.entry.name
@@ -37,7 +62,12 @@ pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
         let before = tasks.len();
         for (_, kind) in kinds {
             let pairs = asked.changes.pairs(entry)?;
-            tasks.push(Task { entry, pairs, kind });
+            tasks.push(Task {
+                entry,
+                pairs,
+                kind,
+                property: asked.property.clone(),
+            });
         }
         if tasks.len() == before {
             others.push(entry.name.to_owned());
@@ -55,7 +85,51 @@ pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
     for task in &tasks {
         made(task, asked.circuits.len() < 2)?;
     }
+    if let Some(text) = &asked.property {
+        tasks = with_property(tasks, text, &asked.circuits)?;
+        others.clear();
+    }
     Ok((tasks, others))
+}
+
+/// Returns the tasks that have a property of this text. Each circuit that is named has one.
+fn with_property(tasks: Vec<Task>, text: &str, circuits: &[String]) -> Result<Vec<Task>, Failure> {
+    let (mut having, mut without) = (Vec::new(), Vec::new());
+    for task in tasks {
+        let properties = task.properties();
+        match task.asked(properties.clone()).is_empty() {
+            true => without.push((task, properties)),
+            false => having.push(task),
+        }
+    }
+    let lacks = |circuit: &str| having.iter().all(|task| task.circuit() != circuit);
+    let mut named_without = without.iter().filter(|(task, _)| lacks(task.circuit()));
+    let refused = |problem: String, allowed: String| {
+        Err(Failure::Argument {
+            field: "--property",
+            problem,
+            allowed,
+        })
+    };
+    let text = named(text);
+    match named_without.next() {
+        Some((task, _)) if !circuits.is_empty() => {
+            let circuit = task.circuit();
+            let own = without.iter().filter(|(task, _)| task.circuit() == circuit);
+            let own: Vec<_> = own.flat_map(|(_, properties)| properties).collect();
+            let near = did_you_mean(text, own.iter().map(|property| property.as_str()));
+            let own: Vec<_> = own.iter().map(|property| property.as_str()).collect();
+            refused(
+                format!("no property of {circuit} contains {text}{near}"),
+                own.join("; "),
+            )
+        }
+        Some(_) if having.is_empty() => refused(
+            format!("no property of any circuit contains {text}"),
+            "a part of a property's text; `motion-rtl list NAME` shows them".to_owned(),
+        ),
+        _ => Ok(having),
+    }
 }
 
 /// Returns the tasks of a part of the work: of the proofs every `of`-th, every sweep.

@@ -6,9 +6,11 @@ use super::tasks::{self, Task};
 use crate::cli::written::Written;
 use crate::cli::{Failure, print, threads};
 use indicatif::{HumanCount, MultiProgress, ProgressBar, ProgressStyle};
-use motion_rtl::check::{CheckError, Proof};
+use motion_rtl::check::{CheckError, Proof, Violation};
+use motion_rtl::engine::EngineError;
 use motion_rtl::registry::{AnyCircuit, AnySweep, Base, ProofSearch, Verdict};
-use motion_rtl::sim::RunError;
+use motion_rtl::sim::{Elaborated, RunError};
+use motion_rtl::trace::Clock;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -61,16 +63,21 @@ impl<'a> Waves<'a> {
         }
     }
 
+    /// Lists waves that were written for `clean`, and returns their paths; or says why there are none.
+    pub fn listed(&self, waves: Result<Vec<PathBuf>, RunError>) -> Result<Vec<String>, String> {
+        let paths =
+            waves.map_err(|error| format!("none: {error}; allowed: another --out, a directory"))?;
+        self.list.add(paths.iter().map(PathBuf::as_path));
+        Ok(paths
+            .iter()
+            .map(|path| path.display().to_string())
+            .collect())
+    }
+
     /// Returns a report with the paths of its waves. It counts even if they cannot be written.
     pub fn with(&self, report: &str, waves: Result<Vec<PathBuf>, RunError>) -> String {
-        let waves = match waves {
-            Ok(paths) => {
-                self.list.add(paths.iter().map(PathBuf::as_path));
-                let paths = paths.iter().map(|path| path.display().to_string());
-                paths.collect::<Vec<_>>().join(", ")
-            }
-            Err(error) => format!("none: {error}; allowed: another --out, a directory"),
-        };
+        let waves = self.listed(waves);
+        let waves = waves.map_or_else(|problem| problem, |paths| paths.join(", "));
         format!("{}\nwaves: {waves}", report.trim_end())
     }
 }
@@ -166,11 +173,12 @@ fn prove(
     line: &ProgressBar,
 ) -> Result<Row, Failure> {
     let name = task.circuit();
-    let row = begun(task, circuit.invariants());
+    let invariants = task.asked(circuit.invariants());
+    let row = begun(task, invariants.clone());
     let search = ProofSearch {
         states: limits.states,
         until: limits.until,
-        waves: Some(out.directory),
+        invariants: task.property.is_some().then_some(&invariants),
         ..ProofSearch::default()
     };
     let verdict = circuit.prove(&search, &mut |progress| {
@@ -208,7 +216,7 @@ fn prove(
             )),
             ..row
         },
-        Ok(Verdict::Broken { report, waves }) => broken(row, &report, waves, out),
+        Ok(Verdict::Broken(found)) => broken(row, &found, circuit.model(), out),
     })
 }
 
@@ -234,7 +242,7 @@ fn sweep(
     let swept = law.cases().and_then(|cases| {
         let range = shard.range(cases);
         line.set_length(range.end - range.start);
-        law.sweep(range, None, Some(out.directory), &|cases| {
+        law.sweep(range, None, &|cases| {
             line.inc(cases);
             let (done, all) = (HumanCount(line.position()), line.length().unwrap_or(0));
             line.set_message(format!("{done} of {} cases", HumanCount(all)));
@@ -245,7 +253,7 @@ fn sweep(
             states: Some(cases),
             ..row
         },
-        Ok(Verdict::Broken { report, waves }) => broken(row, &report, waves, out),
+        Ok(Verdict::Broken(found)) => broken(row, &found, law.model(), out),
         Ok(Verdict::Undecided(_)) => Row {
             ended: Ended::NotDecided,
             fault: Some(format!("{name}: not decided")),
@@ -259,11 +267,19 @@ fn sweep(
     })
 }
 
-/// Returns the row of a broken property.
-fn broken(row: Row, report: &str, waves: Result<Vec<PathBuf>, RunError>, out: &Waves<'_>) -> Row {
+/// Returns the row of a broken property, with waves of the circuit.
+fn broken(
+    row: Row,
+    found: &Violation,
+    circuit: Result<Elaborated, EngineError>,
+    out: &Waves<'_>,
+) -> Row {
+    let waves = circuit.map_err(RunError::from);
+    let waves = waves.and_then(|model| found.save(&model, Clock::default(), out.directory));
+    let report = out.with(&found.to_string(), waves);
     Row {
         ended: Ended::Broken,
-        fault: Some(format!("{}: {}", row.circuit, out.with(report, waves))),
+        fault: Some(format!("{}: {report}", row.circuit)),
         ..row
     }
 }

@@ -70,7 +70,8 @@ class Page {
     });
     this.law = new LawPane(this.pane("Try a law"), {
       run: (words, signal) => this.prove(words, signal),
-      counterexample: (result) => void this.counterexample(result),
+      circuit: async (name) => ({ properties: (await this.circuitOf(name)).properties ?? [] }),
+      counterexample: (result, paths) => void this.counterexample(result, paths),
     });
     this.playhead.addEventListener("change", () => this.circuit.update());
     this.waves.addEventListener("values", () => this.circuit.update());
@@ -314,12 +315,13 @@ class Page {
   }
 
   /**
-   * Shows the waves of a counterexample.
+   * Shows the waves of a counterexample: those of these paths, or the first of the result.
    * @param {Result} result
+   * @param {string[]} [paths]
    */
-  async counterexample(result) {
-    const vcd = fileWith(result, ".vcd");
-    const save = fileWith(result, ".gtkw");
+  async counterexample(result, paths) {
+    const vcd = fileWith(result, ".vcd", paths);
+    const save = fileWith(result, ".gtkw", paths);
     if (!vcd) return;
     const dump = readVcd(vcd);
     this.playhead.limit(0, 1e6);

@@ -13,6 +13,7 @@
  * @property {Port[]} inputs
  * @property {Port[]} outputs
  * @property {{ parts: Part[], outputs: Port[], nets: Port[], registers: Port[] }} connections
+ * @property {string[]} [properties] properties that `check` proves; of a circuit that is listed alone
  */
 
 /** Where a box stands: column and row, from 0. @typedef {{ name: string, column: number, row: number }} Placed */

@@ -43,12 +43,17 @@ export function commandOf({ file, circuit, changes }) {
 }
 
 /**
- * The file of a result with this extension, if there is one.
+ * The file of a result with this extension, if there is one; of these paths, if they are given.
  * @param {import("./worker.js").Result} result
  * @param {string} extension
+ * @param {string[]} [paths]
  */
-export function fileWith({ files }, extension) {
-  for (const [path, bytes] of files) if (path.endsWith(extension)) return bytes;
+export function fileWith({ files }, extension, paths) {
+  const name = (/** @type {string} */ path) => path.replace(/^.*\//, "");
+  const names = paths?.map(name);
+  for (const [path, bytes] of files) {
+    if (path.endsWith(extension) && (names?.includes(name(path)) ?? true)) return bytes;
+  }
   return undefined;
 }
 

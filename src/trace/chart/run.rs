@@ -115,6 +115,21 @@ impl Chart {
         Ok(())
     }
 
+    /// Returns the words of the input ports, tick by tick.
+    pub(crate) fn inputs(&self, circuit: &Elaborated) -> Result<Vec<Vec<u64>>, ChartError> {
+        let declarations = circuit.outline();
+        let ports = &declarations.leaves[..declarations.inputs()];
+        let lines = resolve(&self.inputs, ports, "port in")?;
+        let word = |port: &Declaration, tick: usize| {
+            let line = lines.iter().find(|line| std::ptr::eq(line.leaf, port));
+            line.and_then(|line| line.values[tick]).unwrap_or(0)
+        };
+        let ticks = 0..self.ticks;
+        Ok(ticks
+            .map(|tick| ports.iter().map(|port| word(port, tick)).collect())
+            .collect())
+    }
+
     fn record(
         &self,
         circuit: &Elaborated,

@@ -349,9 +349,10 @@ fn literal() -> String {
         let literal = [Pair::new("variant", "literal")];
         let circuit = entry.proof(&literal).expect("it has a literal variant");
         let verdict = circuit.prove(&ProofSearch::default(), &mut |_| {});
-        let Ok(Verdict::Broken { report, .. }) = verdict else {
+        let Ok(Verdict::Broken(violation)) = verdict else {
             panic!("the literal {name} is not broken: {verdict:?}");
         };
+        let report = violation.to_string();
         let first = report.lines().next().unwrap_or_default().trim();
         let _ = writeln!(text, "| `{name}` | {width} | {first} |");
     }

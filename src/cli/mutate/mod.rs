@@ -1,12 +1,17 @@
 //! `mutate`: single faults in circuits, and what finds them.
 
+mod single;
+
+#[cfg(feature = "schema")]
+pub use single::Report as SingleReport;
+
 use super::chosen::{self, Changes, entries};
 use super::notes::NOTES;
 use super::{Failure, json, print, threads};
 use clap::Args;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use motion_rtl::input::{Fault, or_more_files, read_string};
-use motion_rtl::registry::{Base, Campaign, CampaignError, Entry, Fate, Found, Pair, Suspect};
+use motion_rtl::registry::{Campaign, CampaignError, Entry, Fate, Found, Pair, Suspect};
 use motion_rtl::sim::RunError;
 use motion_rtl::trace::chart::{Chart, parse};
 use rayon::prelude::*;
@@ -45,12 +50,19 @@ pub struct Arguments {
     )]
     transitions: u64,
     /// Fails if less than this percentage of the faults that show is found.
-    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = clap::value_parser!(u8).range(0..=100))]
+    #[arg(long, value_name = "PERCENT", conflicts_with = "fault", allow_negative_numbers = true, value_parser = clap::value_parser!(u8).range(0..=100))]
     least: Option<u8>,
     /// Also lists the faults that no random run shows.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "fault")]
     unseen: bool,
-    /// Prints every fault as JSON.
+    /// Injects only this fault, and shows each check that finds it, with waves: a number of the list
+    /// that `--json` prints, or a part of the fault's text.
+    #[arg(long, value_name = "FAULT")]
+    fault: Option<String>,
+    /// Directory for the waves of a single fault.
+    #[arg(long, value_name = "DIR", default_value = "waves", requires = "fault")]
+    out: PathBuf,
+    /// Prints every fault as JSON, or what finds a single one.
     #[arg(long)]
     json: bool,
 }
@@ -77,6 +89,8 @@ struct Row {
 /// A fault and what became of it, in words.
 #[derive(Debug, Serialize)]
 struct Told {
+    /// Number for `--fault`.
+    number: usize,
     fault: String,
     fate: &'static str,
     #[serde(skip_serializing_if = "String::is_empty")]
@@ -107,6 +121,9 @@ pub fn mutate(arguments: &Arguments) -> Result<(), Failure> {
         return Err(chosen::no_circuit(&arguments.changes, "mutate"));
     }
     threads::start()?;
+    if let Some(fault) = &arguments.fault {
+        return single::run(arguments, (&campaign, &notes), &entries, fault);
+    }
     let bars = MultiProgress::new();
     let entries = entries.into_par_iter().with_max_len(1);
     let rows = entries.map(|entry| {
@@ -220,7 +237,24 @@ fn row(
         bar.inc(1);
     });
     bar.finish_and_clear();
-    let suspects = suspects.map_err(|error| match error {
+    let suspects = suspects.map_err(|error| failure(error, entry, campaign, notes))?;
+    let count = |is: fn(&Fate) -> bool| suspects.iter().filter(|s| is(&s.fate)).count();
+    Ok(Row {
+        circuit: entry.name,
+        faults: suspects.len() - count(|fate| *fate == Fate::Refused),
+        chart: count(|fate| matches!(fate, Fate::Found(Found::Chart(_)))),
+        proof: count(|fate| matches!(fate, Fate::Found(Found::Proof | Found::Law))),
+        around: count(|fate| matches!(fate, Fate::Found(Found::Around(..)))),
+        unseen: count(|fate| *fate == Fate::Unseen),
+        missed: count(|fate| matches!(fate, Fate::Missed { .. })),
+        seconds: begun.elapsed().as_secs_f64(),
+        suspects: suspects.iter().enumerate().map(Told::of).collect(),
+    })
+}
+
+/// Says why a campaign cannot run.
+fn failure(error: CampaignError, entry: &Entry, campaign: &Campaign, notes: &[String]) -> Failure {
+    match error {
         CampaignError::Engine(error) => Failure::Run(RunError::from(error)),
         CampaignError::Refused {
             chart: None,
@@ -240,23 +274,11 @@ fn row(
             Failure::Check(format!("{}: {failure}", notes[chart]))
         }
         error => Failure::Check(error.to_string()),
-    })?;
-    let count = |is: fn(&Fate) -> bool| suspects.iter().filter(|s| is(&s.fate)).count();
-    Ok(Row {
-        circuit: entry.name,
-        faults: suspects.len() - count(|fate| *fate == Fate::Refused),
-        chart: count(|fate| matches!(fate, Fate::Found(Found::Chart(_)))),
-        proof: count(|fate| matches!(fate, Fate::Found(Found::Proof | Found::Law))),
-        around: count(|fate| matches!(fate, Fate::Found(Found::Around(..)))),
-        unseen: count(|fate| *fate == Fate::Unseen),
-        missed: count(|fate| matches!(fate, Fate::Missed { .. })),
-        seconds: begun.elapsed().as_secs_f64(),
-        suspects: suspects.iter().map(Told::of).collect(),
-    })
+    }
 }
 
 impl Told {
-    fn of(suspect: &Suspect) -> Told {
+    fn of((index, suspect): (usize, &Suspect)) -> Told {
         let (fate, by) = match &suspect.fate {
             Fate::Found(Found::Chart(title)) => ("chart", title.clone()),
             Fate::Found(Found::Proof) => ("proof", String::new()),
@@ -270,10 +292,6 @@ impl Told {
                 tick,
                 port,
             } => {
-                let base = match base {
-                    Base::Full => "full",
-                    Base::Small => "small",
-                };
                 let made: Vec<_> = pairs.iter().map(Pair::to_string).collect();
                 let made = made.join(", ");
                 let by = format!("{base}[{made}], random run {run}, tick {tick}: {port}");
@@ -281,6 +299,7 @@ impl Told {
             }
         };
         Told {
+            number: index + 1,
             fault: suspect.mutation.to_string(),
             fate,
             by,

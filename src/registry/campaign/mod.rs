@@ -1,5 +1,9 @@
 //! Single faults put into circuits, and what finds them.
 
+mod single;
+
+pub use single::{Single, Witness};
+
 use super::{AnyModel, Base, Entry, Pair, ProofSearch, Refused, Verdict, find};
 use crate::check::Stimulus;
 use crate::engine::{EngineError, Watch};
@@ -181,15 +185,7 @@ impl Campaign {
         for made in own.iter().chain(&around) {
             made.holds(&self.charts)?;
         }
-        let mut found: Vec<Mutation> = Vec::new();
-        let asked = if pairs.is_empty() { own.len() } else { 1 };
-        for made in &own[..asked] {
-            for mutation in mutations(made.model.name(), || made.circuit.model()).1 {
-                if !found.contains(&mutation) {
-                    found.push(mutation);
-                }
-            }
-        }
+        let found = of_all(&own, pairs);
         let shown: Vec<Shown> = own.iter().map(|made| self.shown(&made.model)).collect();
         let all = found.len();
         let suspects = found.into_par_iter().map(|mutation| {
@@ -374,15 +370,29 @@ impl Campaign {
                 model: Some(model),
                 ..ProofSearch::default()
             };
-            if let Ok(Verdict::Broken { .. }) = circuit.prove(&search, &mut |_| {}) {
+            if let Ok(Verdict::Broken(_)) = circuit.prove(&search, &mut |_| {}) {
                 return Some(Found::Proof);
             }
         }
         let law = entry.least_law()?;
         let model = mutated(mutation, || law.model())?.ok()?;
-        let swept = law.sweep(0..law.cases().ok()?, Some(model), None, &|_| {});
-        matches!(swept, Ok(Verdict::Broken { .. })).then_some(Found::Law)
+        let swept = law.sweep(0..law.cases().ok()?, Some(model), &|_| {});
+        matches!(swept, Ok(Verdict::Broken(_))).then_some(Found::Law)
     }
+}
+
+/// Returns the faults of the circuits of charts, or with `pairs` those of the first circuit.
+fn of_all(own: &[Made<'_>], pairs: &[Pair]) -> Vec<Mutation> {
+    let mut found: Vec<Mutation> = Vec::new();
+    let asked = if pairs.is_empty() { own.len() } else { 1 };
+    for made in &own[..asked] {
+        for mutation in mutations(made.model.name(), || made.circuit.model()).1 {
+            if !found.contains(&mutation) {
+                found.push(mutation);
+            }
+        }
+    }
+    found
 }
 
 /// True if a module is of this circuit: another of the same has a number behind its name.
