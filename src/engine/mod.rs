@@ -1,5 +1,9 @@
 //! Execution of circuits: a netlist is optimised, planned, and interpreted or compiled.
 
+#[cfg(test)]
+mod alike;
+#[cfg(any(feature = "jit", test, all(feature = "wasm", target_family = "wasm")))]
+mod codegen;
 #[cfg(feature = "jit")]
 #[allow(
     unsafe_code,
@@ -26,8 +30,12 @@ pub(crate) mod sliced;
 #[cfg(test)]
 mod tests;
 mod tier;
+#[cfg(not(any(feature = "jit", all(feature = "wasm", target_family = "wasm"))))]
+mod uncompiled;
 mod unroll;
 mod value;
+#[cfg(any(test, all(feature = "wasm", target_family = "wasm")))]
+mod wasm;
 
 pub use flat::EngineError;
 pub(crate) use flat::{Flat, Id, Op, Place, Port};

@@ -2,10 +2,14 @@
 //! once the run is long enough to pay.
 
 #[cfg(feature = "jit")]
-use super::compiler::Code;
+use super::compiler::{Code, CompileError};
 use super::interpreter::{self, Counts};
 use super::plan::{Block, Plan};
 use super::replay::Replay;
+#[cfg(not(any(feature = "jit", all(feature = "wasm", target_family = "wasm"))))]
+use super::uncompiled::{Code, CompileError};
+#[cfg(all(feature = "wasm", target_family = "wasm", not(feature = "jit")))]
+use super::wasm::{Code, CompileError};
 use std::sync::{Arc, OnceLock};
 
 /// Average number of times each step is interpreted before compiling: the cost of compiling a step
@@ -15,6 +19,12 @@ const PAYS: u64 = 600;
 const INTERPRETED: u64 = 6;
 /// Least number of ticks in which blocks are counted.
 const COUNTED: u64 = 256;
+
+/// True if there is a compiler.
+const COMPILES: bool = cfg!(any(
+    feature = "jit",
+    all(feature = "wasm", target_family = "wasm")
+));
 
 /// Backend with its statistics.
 #[derive(Debug, Clone)]
@@ -38,7 +48,6 @@ type Compiled = (Backend, Arc<[bool]>, u64);
 #[derive(Debug, Clone)]
 enum Backend {
     Interpreter,
-    #[cfg(feature = "jit")]
     Code(Arc<Code>),
 }
 
@@ -50,10 +59,9 @@ impl Tier {
             counts: vec![0; plan.blocks.len()],
             ticks: 0,
             pace: INTERPRETED * steps,
-            due: if cfg!(feature = "jit") {
-                steps * PAYS
-            } else {
-                u64::MAX
+            due: match COMPILES {
+                true => steps * PAYS,
+                false => u64::MAX,
             },
             hot: vec![false; plan.blocks.len()].into(),
             shared: Arc::default(),
@@ -78,7 +86,7 @@ impl Tier {
         self.due = u64::MAX;
     }
 
-    /// True if there is machine code.
+    /// True if there is compiled code.
     pub fn is_compiled(&self) -> bool {
         !matches!(self.backend, Backend::Interpreter)
     }
@@ -98,7 +106,6 @@ impl Tier {
     pub fn cost(&self, steps: u64) -> u64 {
         match &self.backend {
             Backend::Interpreter => INTERPRETED * steps,
-            #[cfg(feature = "jit")]
             Backend::Code(_) => steps,
         }
     }
@@ -119,7 +126,6 @@ impl Tier {
     pub fn settle(&mut self, plan: &Plan, slab: &mut [u64]) {
         match &self.backend {
             Backend::Interpreter => interpreter::settle(plan, slab, &mut self.counts),
-            #[cfg(feature = "jit")]
             Backend::Code(code) => code.settle(slab),
         }
     }
@@ -130,7 +136,6 @@ impl Tier {
                 interpreter::edge(plan, slab, &mut self.counts);
                 self.tick(plan);
             }
-            #[cfg(feature = "jit")]
             Backend::Code(code) => code.edge(slab),
         }
     }
@@ -138,14 +143,12 @@ impl Tier {
     /// Makes up to `ticks` edges, each with a settling; may stop earlier. Returns the number of
     /// ticks.
     pub fn advance(&mut self, plan: &Plan, slab: &mut [u64], ticks: u64) -> u64 {
-        let _ = ticks;
         match &self.backend {
             Backend::Interpreter => {
                 self.edge(plan, slab);
                 self.settle(plan, slab);
                 1
             }
-            #[cfg(feature = "jit")]
             Backend::Code(code) => code.advance(slab, ticks),
         }
     }
@@ -153,20 +156,26 @@ impl Tier {
     /// Continues a replay up to its stop or its end, or until its rows are full.
     pub fn replay(&mut self, plan: &Plan, slab: &mut [u64], replay: &mut Replay<'_>) {
         while !replay.is_at_stop() && !replay.is_full() {
-            match &self.backend {
-                Backend::Interpreter if replay.settled => {
+            #[cfg(feature = "jit")]
+            if let Backend::Code(code) = &self.backend {
+                return code.replay(slab, replay);
+            }
+            match (replay.settled, replay.steady()) {
+                (true, 0) => {
                     self.edge(plan, slab);
                     replay.tick += 1;
                     replay.settled = false;
                 }
-                Backend::Interpreter => {
+                (true, ticks) => {
+                    replay.tick += self.advance(plan, slab, ticks);
+                    replay.show(&plan.layout, slab);
+                }
+                (false, _) => {
                     replay.drive(&plan.layout, slab);
                     self.settle(plan, slab);
                     replay.settled = true;
                     replay.show(&plan.layout, slab);
                 }
-                #[cfg(feature = "jit")]
-                Backend::Code(code) => return code.replay(slab, replay),
             }
         }
     }
@@ -201,7 +210,6 @@ impl Tier {
         self.is_compiled()
     }
 
-    #[cfg(feature = "jit")]
     fn compile(&mut self, plan: &Plan, hot: Vec<bool>) {
         match Code::compile(plan, &hot) {
             Ok(code) => {
@@ -214,19 +222,16 @@ impl Tier {
                     .set((self.backend.clone(), self.hot.clone(), self.pace));
             }
             Err(error) => {
-                self.due = u64::MAX;
-                say(&error);
+                if std::mem::replace(&mut self.due, u64::MAX) != u64::MAX {
+                    say(&error);
+                }
             }
         }
     }
-
-    #[cfg(not(feature = "jit"))]
-    fn compile(&mut self, _: &Plan, _: Vec<bool>) {}
 }
 
 /// Prints one warning that circuits are interpreted.
-#[cfg(feature = "jit")]
-fn say(error: &super::compiler::CompileError) {
+fn say(error: &CompileError) {
     static SAID: std::sync::Once = std::sync::Once::new();
     SAID.call_once(|| {
         eprintln!("warning: circuits are interpreted, which takes longer: {error}");

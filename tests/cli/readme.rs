@@ -37,7 +37,10 @@ fn dependencies() -> BTreeMap<String, bool> {
         for (key, only_tests) in [("dependencies", false), ("dev-dependencies", true)] {
             let names = part.get(key).and_then(toml::Value::as_table);
             let names = names.into_iter().flat_map(toml::Table::keys);
-            all.extend(names.map(|name| (name.clone(), only_tests)));
+            for name in names {
+                // An optional crate of the program may always be there in tests.
+                *all.entry(name.clone()).or_insert(true) &= only_tests;
+            }
         }
     }
     all

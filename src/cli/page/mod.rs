@@ -34,7 +34,7 @@ const STYLES: &[&str] = sources![
 ];
 
 /// Modules of the worker. Each stands after those that it imports.
-const WORKER: &[&str] = sources!["files.js", "wasi.js", "worker.js"];
+const WORKER: &[&str] = sources!["files.js", "circuits.js", "wasi.js", "worker.js"];
 
 /// Modules of the page, likewise.
 const SCRIPTS: &[&str] = sources![

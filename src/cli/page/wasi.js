@@ -1,4 +1,5 @@
 // System calls of WASI preview 1 for a program that runs once, on files in memory.
+import { Circuits } from "./circuits.js";
 import { MemoryDirectory, MemoryFile, MemoryTree } from "./files.js";
 
 /** Error numbers of WASI. */
@@ -77,17 +78,21 @@ export class System {
     /** @type {Record<string, Function>} */
     const calls = {};
     for (const { module: from, name } of WebAssembly.Module.imports(module)) {
+      if (from === "motion_rtl") continue;
       if (from !== "wasi_snapshot_preview1") throw new Error(`the program wants ${from}.${name}`);
       const call = /** @type {Record<string, unknown>} */ (/** @type {unknown} */ (this))[name];
       calls[name] = typeof call === "function" ? call.bind(this) : () => ERRNO.nosys;
     }
-    const instance = await WebAssembly.instantiate(module, /** @type {any} */ ({ wasi_snapshot_preview1: calls }));
-    const { memory, _start } = /** @type {{ memory: WebAssembly.Memory, _start: () => void }} */ (
-      /** @type {unknown} */ (instance.exports)
+    const circuits = new Circuits();
+    const imports = /** @type {any} */ ({ wasi_snapshot_preview1: calls, motion_rtl: circuits.calls });
+    const { exports } = await WebAssembly.instantiate(module, imports);
+    const program = /** @type {import("./circuits.js").Exports & { _start: () => void }} */ (
+      /** @type {unknown} */ (exports)
     );
-    this.memory = memory;
+    this.memory = program.memory;
+    circuits.program = program;
     try {
-      _start();
+      program._start();
       return 0;
     } catch (error) {
       if (error instanceof Exit) return error.code;

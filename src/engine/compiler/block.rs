@@ -2,12 +2,12 @@
 
 use super::choices::Choices;
 use super::emit::{Changes, Emitter, Word};
+use crate::engine::codegen::{is_long, kept};
 use crate::engine::flat::mask;
 use crate::engine::layout::Slot;
 use crate::engine::plan::{Block, Code, Plan, PlannedMemory, Step, Write};
 use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{self, InstBuilder, Type, Value, types};
-use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Emits a block that settles nets.
 pub(super) fn settle(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
@@ -26,7 +26,7 @@ pub(super) fn settle(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
 /// Emits a block that makes the edge: registers are written after everything that reads them.
 pub(super) fn edge(emitter: &mut Emitter<'_>, plan: &Plan, place: usize) {
     let block = &plan.blocks[place];
-    if !long(block, emitter.part_size) {
+    if !is_long(block, emitter.part_size) {
         return by_choices(emitter, plan, place);
     }
     steps(emitter, plan, block);
@@ -86,12 +86,6 @@ pub(super) fn commit(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
     );
 }
 
-/// True if a block is compiled in more than one part.
-fn long(block: &Block, part: usize) -> bool {
-    let ends = block.outputs.len() + block.registers.len() + block.writes.len();
-    block.steps.len() + ends > part
-}
-
 /// Emits code for all items in parts, and sets the dirty bits of what they change.
 fn parts<T>(
     emitter: &mut Emitter<'_>,
@@ -101,7 +95,7 @@ fn parts<T>(
 ) {
     let size = emitter.part_size;
     for part in all.chunks(size) {
-        if long(block, size) {
+        if is_long(block, size) {
             emitter.part();
         }
         let mut changes = Changes::new();
@@ -225,36 +219,6 @@ fn steps(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
             emitter.keep(step.to, width);
         }
     }
-}
-
-/// Returns the slots whose words other parts of the block read.
-fn kept(block: &Block, size: usize) -> FxHashSet<Slot> {
-    let mut kept = FxHashSet::default();
-    if !long(block, size) {
-        return kept;
-    }
-    let mut made = FxHashMap::default();
-    for (number, step) in block.steps.iter().enumerate() {
-        let third = (step.code == Code::Mux).then_some(step.c);
-        for slot in [step.a, step.b].into_iter().chain(third) {
-            if made.get(&slot).is_some_and(|&part| part != number / size) {
-                kept.insert(slot);
-            }
-        }
-        made.insert(step.to, number / size);
-    }
-    let outputs = block.outputs.iter().map(|&(from, _)| from);
-    let registers = block.registers.iter().map(|&(_, from)| from);
-    let writes = block.writes.iter();
-    let writes =
-        writes.flat_map(|write| [write.enable, write.data].into_iter().chain(write.address));
-    kept.extend(
-        outputs
-            .chain(registers)
-            .chain(writes)
-            .filter(|slot| made.contains_key(slot)),
-    );
-    kept
 }
 
 /// Emits the value of a step; also returns the number of low bits that may be high.

@@ -2,8 +2,8 @@
 //! due.
 
 use super::emit::Emitter;
-use super::runs::{is_hot, runs};
 use super::{ARRIVE, CompileError, EDGE, PHASES, SETTLE, block};
+use crate::engine::codegen::{GROUP, cold, is_hot, is_whole, runs, words};
 use crate::engine::layout::Slot;
 use crate::engine::plan::Plan;
 use cranelift_codegen::ir::{Block, Function, InstBuilder, Value};
@@ -16,14 +16,10 @@ pub(super) fn emit(
     part_size: usize,
     func: &mut Function,
 ) -> Result<(), CompileError> {
-    whole(plan)?;
-    let mut cold = vec![0u64; plan.layout.block_words as usize];
-    for place in 0..plan.blocks.len() {
-        if !is_hot(hot, place) {
-            let bit = plan.bit(place);
-            cold[bit / 64] |= 1 << (bit % 64);
-        }
+    if !is_whole(plan) {
+        return Err(CompileError::Plan);
     }
+    let cold = cold(plan, hot);
     let (emitter, parameters) = Emitter::new(func, &plan.layout, cold, part_size);
     let mut flow = Flow {
         emitter,
@@ -35,37 +31,6 @@ pub(super) fn emit(
     match flow.emitter.outside {
         true => Err(CompileError::Plan),
         false => Ok(()),
-    }
-}
-
-/// Checks that every index in a plan is in range. Slots are checked where they are used.
-fn whole(plan: &Plan) -> Result<(), CompileError> {
-    let registers = plan.registers.len();
-    let memories = plan.memories.len();
-    let bits = plan.layout.block_words as usize * 64;
-    let blocks = plan.blocks.iter().enumerate().all(|(place, block)| {
-        let reads = block
-            .steps
-            .iter()
-            .filter(|step| step.code == super::super::plan::Code::Read);
-        plan.bit(place) < bits
-            && block
-                .registers
-                .iter()
-                .all(|&(register, _)| (register as usize) < registers)
-            && block
-                .writes
-                .iter()
-                .all(|write| (write.memory as usize) < memories)
-            && reads.clone().all(|step| (step.c as usize) < memories)
-            && block.steps.iter().all(|step| {
-                let widths = [step.width, step.from];
-                widths.iter().all(|width| (1..=64).contains(width))
-            })
-    });
-    match blocks && plan.settling <= plan.blocks.len() {
-        true => Ok(()),
-        false => Err(CompileError::Plan),
     }
 }
 
@@ -273,22 +238,4 @@ enum Due {
     Word(Slot),
     /// Word that was taken before the first block runs.
     Taken(Value),
-}
-
-/// Number of blocks that one test skips if none of them is due.
-const GROUP: usize = 6;
-
-/// Groups blocks by the word of `dirty` that has their bits: word, mask, blocks.
-fn words(plan: &Plan, blocks: &[usize]) -> Vec<(u32, u64, Vec<usize>)> {
-    let mut words: BTreeMap<u32, (u64, Vec<usize>)> = BTreeMap::new();
-    for &place in blocks {
-        let bit = plan.bit(place);
-        let (mask, places) = words.entry(bit as u32 / 64).or_default();
-        *mask |= 1 << (bit % 64);
-        places.push(place);
-    }
-    words
-        .into_iter()
-        .map(|(word, (mask, places))| (word, mask, places))
-        .collect()
 }

@@ -7,7 +7,6 @@ mod block;
 mod choices;
 mod emit;
 mod flow;
-mod runs;
 mod shown;
 #[cfg(test)]
 mod tests;

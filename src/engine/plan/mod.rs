@@ -137,7 +137,7 @@ pub struct PlannedMemory {
     /// Blocks that read the memory.
     pub readers: Vec<u32>,
     /// Width of a word in bits; only compiled code needs it.
-    #[cfg_attr(not(feature = "jit"), expect(dead_code))]
+    #[cfg_attr(not(feature = "jit"), allow(dead_code))]
     pub width: u8,
 }
 

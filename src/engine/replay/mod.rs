@@ -184,6 +184,12 @@ impl<'r> Replay<'r> {
         next.map_or(self.end, |change| change.tick.min(self.end))
     }
 
+    /// Returns the number of ticks that follow this one with the same inputs, up to the stop.
+    pub(super) fn steady(&self) -> u64 {
+        let ticks = self.held_until().saturating_sub(self.tick + 1);
+        ticks.min(self.stop.saturating_sub(self.tick))
+    }
+
     /// Passes all rows to `see`, and removes them.
     #[inline]
     fn take_rows(&mut self, mut see: impl FnMut(ReplayTick<'_>)) {

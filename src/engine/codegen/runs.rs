@@ -3,18 +3,19 @@
 use crate::engine::layout::Slot;
 use crate::engine::plan::{Code, Plan};
 use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Consecutive blocks: all of them are hot, or none is.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Run {
+pub struct Run {
     pub hot: bool,
     pub blocks: Vec<usize>,
 }
 
 /// Divides the blocks of a phase into few runs. A block comes after those it depends on; the
 /// blocks of a run are in plan order.
-pub(super) fn runs(plan: &Plan, hot: &[bool], phase: Range<usize>) -> Vec<Run> {
+pub fn runs(plan: &Plan, hot: &[bool], phase: Range<usize>) -> Vec<Run> {
     let before = before(plan, phase.clone());
     let from = |first: bool| {
         let mut runs: Vec<Run> = Vec::new();
@@ -46,7 +47,7 @@ pub(super) fn runs(plan: &Plan, hot: &[bool], phase: Range<usize>) -> Vec<Run> {
     }
 }
 
-pub(super) fn is_hot(hot: &[bool], place: usize) -> bool {
+pub fn is_hot(hot: &[bool], place: usize) -> bool {
     hot.get(place).copied().unwrap_or(false)
 }
 
@@ -84,4 +85,32 @@ fn before(plan: &Plan, phase: Range<usize>) -> Vec<Vec<usize>> {
         }
     }
     before
+}
+
+/// Returns the woken blocks, as bits of the words of `dirty`: those that are not hot.
+pub fn cold(plan: &Plan, hot: &[bool]) -> Vec<u64> {
+    let mut cold = vec![0; plan.layout.block_words as usize];
+    for place in (0..plan.blocks.len()).filter(|&place| !is_hot(hot, place)) {
+        let bit = plan.bit(place);
+        cold[bit / 64] |= 1 << (bit % 64);
+    }
+    cold
+}
+
+/// Number of blocks that one test skips if none of them is due.
+pub const GROUP: usize = 6;
+
+/// Groups blocks by the word of `dirty` that has their bits: word, mask, blocks.
+pub fn words(plan: &Plan, blocks: &[usize]) -> Vec<(u32, u64, Vec<usize>)> {
+    let mut words: BTreeMap<u32, (u64, Vec<usize>)> = BTreeMap::new();
+    for &place in blocks {
+        let bit = plan.bit(place);
+        let (mask, places) = words.entry(bit as u32 / 64).or_default();
+        *mask |= 1 << (bit % 64);
+        places.push(place);
+    }
+    words
+        .into_iter()
+        .map(|(word, (mask, places))| (word, mask, places))
+        .collect()
 }
