@@ -77,7 +77,6 @@ Examples:
   motion-rtl keys lead_angle
   motion-rtl keys lead_angle --json-schema >lead_angle.schema.json";
 
-#[cfg(not(target_family = "wasm"))]
 pub const SERVE: &str = "\
 Examples:
   motion-rtl serve

@@ -40,6 +40,36 @@ enum Command {
     /// Injects single faults into circuits, and lists those that no chart, proof or law finds.
     #[command(after_help = help::MUTATE)]
     Mutate(super::mutate::Arguments),
+    #[cfg(not(target_family = "wasm"))]
+    #[command(flatten)]
+    Hdl(Hdl),
+    /// Lists circuits with ports and keys, and scenarios; or one circuit with its parts.
+    #[command(after_help = help::LIST)]
+    List(super::list::Arguments),
+    /// Lists the keys of a job's scenarios or of a circuit: types, units, values and ranges.
+    #[command(after_help = help::KEYS)]
+    Keys(super::keys::Arguments),
+    #[cfg(not(target_family = "wasm"))]
+    #[command(flatten)]
+    Machine(Machine),
+    /// Prints a JSON schema of what `run --json` and `check --json` print, and of errors.
+    #[cfg(feature = "schema")]
+    #[command(after_help = help::SCHEMA)]
+    Schema,
+    /// Prints the completions of a shell.
+    #[cfg(feature = "shell")]
+    #[command(after_help = help::COMPLETIONS)]
+    Completions(super::shell::Completions),
+    /// Writes the man pages of the program and of its commands.
+    #[cfg(feature = "shell")]
+    #[command(after_help = help::MAN)]
+    Man(super::shell::Man),
+}
+
+/// Commands for HDL, and the engine's plan of a circuit; the program for browsers does without.
+#[cfg(not(target_family = "wasm"))]
+#[derive(Debug, Subcommand)]
+enum Hdl {
     /// Writes a circuit as Verilog, with a testbench, its stimulus and the golden waves.
     #[command(after_help = help::VERILOG)]
     Verilog(super::verilog::Arguments),
@@ -55,14 +85,13 @@ enum Command {
     /// Shows how the engine runs a circuit: its blocks, what wakes them, how often each runs.
     #[command(after_help = help::PLAN)]
     Plan(super::plan::Arguments),
-    /// Lists circuits with ports and keys, and scenarios; or one circuit with its parts.
-    #[command(after_help = help::LIST)]
-    List(super::list::Arguments),
-    /// Lists the keys of a job's scenarios or of a circuit: types, units, values and ranges.
-    #[command(after_help = help::KEYS)]
-    Keys(super::keys::Arguments),
+}
+
+/// Commands for this machine: its browsers and its files.
+#[cfg(not(target_family = "wasm"))]
+#[derive(Debug, Subcommand)]
+enum Machine {
     /// Serves a page in which jobs run and are looked at, on this machine alone.
-    #[cfg(not(target_family = "wasm"))]
     #[command(after_help = help::SERVE)]
     Serve(super::serve::Arguments),
     /// Writes that page with the program inside, for a browser alone.
@@ -72,18 +101,6 @@ enum Command {
     /// pictures, counterexamples, tables, Verilog, VHDL and stimuli.
     #[command(after_help = help::CLEAN)]
     Clean(super::clean::Arguments),
-    /// Prints a JSON schema of what `run --json` and `check --json` print, and of errors.
-    #[cfg(feature = "schema")]
-    #[command(after_help = help::SCHEMA)]
-    Schema,
-    /// Prints the completions of a shell.
-    #[cfg(feature = "shell")]
-    #[command(after_help = help::COMPLETIONS)]
-    Completions(super::shell::Completions),
-    /// Writes the man pages of the program and of its commands.
-    #[cfg(feature = "shell")]
-    #[command(after_help = help::MAN)]
-    Man(super::shell::Man),
 }
 
 /// Commands that a program may be built without, and the features that they need.
@@ -234,22 +251,41 @@ fn run(command: Option<Command>) -> Result<(), Failure> {
         Some(Command::Table(arguments)) => super::table::table(&arguments),
         Some(Command::Check(arguments)) => super::check::check(&arguments),
         Some(Command::Mutate(arguments)) => super::mutate::mutate(&arguments),
-        Some(Command::Verilog(arguments)) => super::verilog::verilog(&arguments),
-        Some(Command::Vhdl(arguments)) => super::vhdl::vhdl(&arguments),
-        Some(Command::Compare(arguments)) => super::compare::compare(&arguments),
-        Some(Command::Equal(arguments)) => super::equal::equal(&arguments),
-        Some(Command::Plan(arguments)) => super::plan::plan(&arguments),
+        #[cfg(not(target_family = "wasm"))]
+        Some(Command::Hdl(hdl)) => hdl.run(),
         Some(Command::List(arguments)) => super::list::list(&arguments),
         Some(Command::Keys(arguments)) => super::keys::keys(&arguments),
         #[cfg(not(target_family = "wasm"))]
-        Some(Command::Serve(arguments)) => super::serve::serve(&arguments),
-        Some(Command::Page(arguments)) => super::page::page(&arguments),
-        Some(Command::Clean(arguments)) => super::clean::clean(&arguments),
+        Some(Command::Machine(machine)) => machine.run(),
         #[cfg(feature = "schema")]
         Some(Command::Schema) => super::schema::schema(),
         #[cfg(feature = "shell")]
         Some(Command::Completions(arguments)) => super::shell::completions(&arguments),
         #[cfg(feature = "shell")]
         Some(Command::Man(arguments)) => super::shell::man(&arguments),
+    }
+}
+
+#[cfg(not(target_family = "wasm"))]
+impl Hdl {
+    fn run(&self) -> Result<(), Failure> {
+        match self {
+            Hdl::Verilog(arguments) => super::verilog::verilog(arguments),
+            Hdl::Vhdl(arguments) => super::vhdl::vhdl(arguments),
+            Hdl::Compare(arguments) => super::compare::compare(arguments),
+            Hdl::Equal(arguments) => super::equal::equal(arguments),
+            Hdl::Plan(arguments) => super::plan::plan(arguments),
+        }
+    }
+}
+
+#[cfg(not(target_family = "wasm"))]
+impl Machine {
+    fn run(&self) -> Result<(), Failure> {
+        match self {
+            Machine::Serve(arguments) => super::serve::serve(arguments),
+            Machine::Page(arguments) => super::page::page(arguments),
+            Machine::Clean(arguments) => super::clean::clean(arguments),
+        }
     }
 }

@@ -107,7 +107,10 @@ pub fn conclude(
     progress::end();
     outcome.warnings.extend(files.take_notes());
     outcome.files = files.commit()?;
-    if let Some(path) = &arguments.html {
+    // In a browser, the page shows the run that it has asked for.
+    if let Some(path) = &arguments.html
+        && !cfg!(target_family = "wasm")
+    {
         let written = write_page(path, &mut summary)?;
         summary.outcome().files.push(written);
     }
