@@ -12,7 +12,7 @@ import urllib.request
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from conftest import CHECKOUT, PROGRAM, ended, free_port, needs_wasm, program, summary
+from conftest import CHECKOUT, PROGRAM, WASM, ended, free_port, needs_wasm, program, summary
 
 SCENARIOS = [scenario["file"] for scenario in json.loads(program("list", "--json"))["scenarios"]]
 
@@ -22,16 +22,30 @@ def compared(found):
     return {key: value for key, value in found.items() if key not in ("files", "vcd_window")}
 
 
+def close(value):
+    """A value that equals another one of which numbers differ in their last digits: browsers have other sines."""
+    if isinstance(value, dict):
+        return {key: close(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [close(item) for item in value]
+    return pytest.approx(value, rel=1e-9, abs=1e-9) if isinstance(value, float) else value
+
+
+def is_served(address):
+    """True if the program itself runs the jobs of this page."""
+    return not address.endswith("index.html")
+
+
 @pytest.mark.parametrize("scenario", SCENARIOS)
 def test_every_shipped_scenario_has_the_summary_of_the_program(page, address, tmp_path, scenario):
     page.goto(f"{address}#run={scenario}")
     assert "exit code 0" in ended(page, 400)
-    expected = json.loads(program("run", scenario.name, "--json", "--no-vcd", "--out", "out", cwd=tmp_path))
-    assert compared(summary(page)) == compared(expected)
+    expected = json.loads(program("run", scenario, "--json", "--no-vcd", "--out", tmp_path))
+    assert compared(summary(page)) == (compared(expected) if is_served(address) else close(compared(expected)))
 
 
 def test_the_first_run_is_there_soon(page, address):
-    limit = 3000 if "index.html" not in address else 8000
+    limit = 3000
     times = []
     # Others use the machine, too: the least of three loads counts.
     for _ in range(3):
@@ -94,7 +108,9 @@ def test_a_file_opened_without_a_server(page, page_files):
     page.goto((page_files / "motion-rtl.html").as_uri())
     assert "exit code 0" in ended(page)
     assert summary(page)["circuit"] == "pulse_interpolator"
-    assert (page_files / "motion-rtl.html").stat().st_size <= 6e6
+    # The quick build is large.
+    if WASM.parent.name == "release":
+        assert (page_files / "motion-rtl.html").stat().st_size <= 6e6
     assert page.evaluate("async () => (await window.motionRtl.notes.texts()).size") > 120
 
 
