@@ -1,11 +1,13 @@
 """What a reader does with the page, and that it shows what the program prints and writes."""
 
+import functools
 import json
 import os
 import pathlib
 import re
 import signal
 import subprocess
+import tempfile
 import time
 import urllib.error
 import urllib.request
@@ -36,12 +38,19 @@ def is_served(address):
     return not address.endswith("index.html")
 
 
+@functools.cache
+def summary_of(scenario):
+    """The program's summary of a shipped scenario."""
+    with tempfile.TemporaryDirectory() as out:
+        return compared(json.loads(program("run", scenario, "--json", "--no-vcd", "--out", out)))
+
+
 @pytest.mark.parametrize("scenario", SCENARIOS)
-def test_every_shipped_scenario_has_the_summary_of_the_program(page, address, tmp_path, scenario):
+def test_every_shipped_scenario_has_the_summary_of_the_program(page, address, scenario):
     page.goto(f"{address}#run={scenario}")
     assert "exit code 0" in ended(page, 400)
-    expected = json.loads(program("run", scenario, "--json", "--no-vcd", "--out", tmp_path))
-    assert compared(summary(page)) == (compared(expected) if is_served(address) else close(compared(expected)))
+    expected = summary_of(scenario)
+    assert compared(summary(page)) == (expected if is_served(address) else close(expected))
 
 
 def test_the_first_run_is_there_soon(page, address):

@@ -1,5 +1,5 @@
 // The circuit pane: a block with its diagram, its signals and their values at the play head.
-import { clear, element } from "./dom.js";
+import { clear, element, withCode } from "./dom.js";
 import { diagram } from "./diagram.js";
 
 /** @typedef {import("./diagram.js").Part} Part */
@@ -44,7 +44,7 @@ export class CircuitPane {
     clear(this.host).append(
       this.trail(path),
       element("div", { class: "circuit-title" }, element("h2", {}, circuit.name), note && element("button", { type: "button", onclick: () => note(name) }, "Note")),
-      element("p", {}, circuit.about, ". Source: ", circuit.source, "."),
+      element("p", {}, withCode(circuit.about), ". Source: ", circuit.source, "."),
     );
     const enter = (/** @type {Part} */ part) => {
       this.circuits.set([...path, part.name].join("."), part.circuit);
@@ -105,7 +105,7 @@ export class CircuitPane {
       this.cells.set(name, cell);
       const look = element("button", { type: "button", title: "Show in the waves", onclick: () => this.sources.show(name) }, signal.name);
       const width = signal.signed ? `${signal.width}, signed` : signal.width;
-      return [element("th", { scope: "row" }, look), element("td", {}, width), cell, element("td", { class: "driver" }, signal.driver ?? ""), element("td", {}, signal.about ?? "")];
+      return [element("th", { scope: "row" }, look), element("td", {}, width), cell, element("td", { class: "driver" }, signal.driver ?? ""), element("td", {}, withCode(signal.about ?? ""))];
     });
     this.rows(title, ["Signal", "Bits", "Value", "Driver", "Meaning"], rows);
   }

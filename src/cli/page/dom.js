@@ -52,6 +52,14 @@ export function clear(node) {
 }
 
 /**
+ * Text in which what stands between backticks is code.
+ * @param {string} text
+ */
+export function withCode(text) {
+  return text.split("`").map((part, k) => (k % 2 === 1 ? element("code", {}, part) : part));
+}
+
+/**
  * @param {HTMLElement} node
  * @param {string} name
  * @param {AttributeValue} value

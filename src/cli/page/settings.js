@@ -1,4 +1,4 @@
-import { append, clear, element } from "./dom.js";
+import { append, clear, element, withCode } from "./dom.js";
 import { changeOf, faultIn, sameValue, settingNamed, settingsOf, shownText } from "./settingkeys.js";
 
 /** @typedef {import("./settingkeys.js").Setting} Setting */
@@ -262,11 +262,6 @@ function controlOf(setting, initial, attributes) {
     }
     default: return element("input", { ...attributes, type: "text", spellcheck: "false" });
   }
-}
-
-/** Text in which what stands between backticks is code. @param {string} text */
-function withCode(text) {
-  return text.split("`").map((part, k) => (k % 2 === 1 ? element("code", {}, part) : part));
 }
 
 /** @param {Setting} setting */
