@@ -34,6 +34,7 @@ fn play(arguments: &Arguments) -> Result<(), Failure> {
         source.spare_inputs("--series", &series.path, &input)?;
     }
     if let Some(page) = &arguments.html {
+        check_page(page)?;
         source.spare_inputs("--html", page, &input)?;
     }
     let directory = arguments.out.as_deref().unwrap_or(Path::new(DIRECTORY));
@@ -60,6 +61,21 @@ fn with_page(arguments: &Arguments, directory: &Path, stem: &str) -> Arguments {
         format: Format::Fst,
         series: Some(arguments.series.clone().unwrap_or_else(series)),
         ..arguments.clone()
+    }
+}
+
+/// Refuses a page with the name of another file of the run.
+fn check_page(page: &Path) -> Result<(), Failure> {
+    match page
+        .extension()
+        .is_some_and(|extension| extension == "html")
+    {
+        true => Ok(()),
+        false => Err(Failure::Argument {
+            field: "--html",
+            problem: format!("{} is no name of a page", page.display()),
+            allowed: "a file whose name ends in .html".into(),
+        }),
     }
 }
 

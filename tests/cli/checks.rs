@@ -400,7 +400,10 @@ fn a_circuit_is_listed_with_what_drives_its_parts() {
     assert_eq!(connections["parts"], serde_json::json!([]));
     assert_eq!(connections["registers"][0]["name"], "step");
     let text = bench.succeed(&["list", "sync_stage"]);
-    assert!(text.contains("    out     step\n    checked step is low"), "{text}");
+    assert!(
+        text.contains("    out     step\n    checked step is low"),
+        "{text}"
+    );
     let refused = bench.run(&["list", "sync"]);
     assert_eq!(refused.code, 2);
     assert!(

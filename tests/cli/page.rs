@@ -107,7 +107,30 @@ fn a_page_needs_waves() {
     .concat();
     assert_eq!(bench.run(&words).code, 2);
     assert!(!bench.path("r.html").exists());
-    let over = [&["run", "l.hpgl", "--html", "l.hpgl"], &SHORT[..]].concat();
-    let done = bench.run(&over);
+    // A page takes the place of no other file of the run.
+    for other in ["o/l.fst", "o/l.svg", "-", "page"] {
+        let run = bench.run(
+            &[
+                &["run", "l.hpgl", "--out", "o", "--html", other],
+                &SHORT[..],
+            ]
+            .concat(),
+        );
+        assert_eq!(run.code, 2, "{other}");
+        let expected = format!(
+            "--html: {other} is no name of a page; allowed: a file whose name ends in .html"
+        );
+        assert!(run.stderr.contains(&expected), "{}", run.stderr);
+    }
+    let bench = Bench::with("l.html", LINE);
+    let over = [
+        "run",
+        "l.html",
+        "--input-format",
+        "hpgl",
+        "--html",
+        "l.html",
+    ];
+    let done = bench.run(&[&over[..], &SHORT[..]].concat());
     assert!(done.stderr.contains("is the input"), "{}", done.stderr);
 }

@@ -144,15 +144,27 @@ def test_a_bad_file_is_shown_with_line_and_caret(opened, tmp_path):
     assert "bad.ngc:3" in text and "^" in text
 
 
-def test_a_run_is_cancelled(page, address):
-    page.goto(f"{address}#run=waves/feed.toml")
-    page.get_by_role("button", name="Cancel").first.click()
-    assert ended(page) == "Cancelled."
+def test_a_run_is_cancelled(opened):
+    assert opened.locator(".outdated").count() == 0
+    opened.select_option("#scenario", "waves/feed.toml")
+    opened.get_by_role("button", name="Cancel").first.click()
+    opened.wait_for_function("() => document.querySelector('.status').textContent === 'Cancelled.'")
+    # What is seen is of the run before, and its files are not those of this one.
+    assert opened.locator(".outdated").count() == 4
+    assert opened.locator(".files a").count() == 0
+
+
+def test_a_position_log_runs_on_the_circuit_that_takes_it(opened, tmp_path):
+    log = tmp_path / "log.csv"
+    log.write_text("time_s,position_deg\n" + "".join(f"{k / 100},{k * k / 500}\n" for k in range(100)))
+    opened.set_input_files("#file", log)
+    opened.wait_for_function("() => /log.csv|position/.test(document.querySelector('.status').textContent + document.querySelector('.problem').textContent)")
+    assert opened.locator("#on").input_value() == "lead_angle"
+    assert "#" not in opened.url
 
 
 def test_a_setting_is_refused_at_its_field(opened):
     opened.evaluate("location.hash = 'run=waves/bracket.toml&set=clock_hz=0'")
-    opened.reload()
     opened.wait_for_selector(".problem pre")
     assert "clock_hz" in opened.locator(".problem").inner_text()
 

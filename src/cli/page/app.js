@@ -34,8 +34,12 @@ const PANES = ["Path", "Waves", "Circuit", "Try a law", "Summary"];
 /** Those that need the program. */
 const RUNNING = ["Circuit", "Try a law"];
 
-/** Circuits on which a drawing or a part program runs. */
+/** Circuits on which a drawing or a part program runs, and the one that takes a position log. */
 const CIRCUITS = ["pulse_interpolator", "linear_interpolator", "arc_generator", "trajectory_controller"];
+const LOGGED = "lead_angle";
+
+/** Panes that show a run. */
+const SHOWN = ["Path", "Waves", "Circuit", "Summary"];
 
 /** Scenario that is shown first. */
 const FIRST = "waves/bracket.toml";
@@ -96,9 +100,10 @@ class Page {
     const options = scenarios.map(({ file, about }) => element("option", { value: file, title: about }, file.replace(/^waves\/|\.toml$/g, "")));
     this.choice = element("select", { id: "scenario", onchange: () => void this.choose({ file: this.choice?.value ?? FIRST, changes: [] }) }, options);
     this.about = element("p", { class: "faint" });
-    const file = element("input", { id: "file", type: "file", multiple: true, accept: ".toml,.hpgl,.plt,.ngc,.gcode,.nc,.csv", onchange: () => void this.take([...(file.files ?? [])]) });
+    const file = element("input", { id: "file", type: "file", multiple: true, accept: ".toml,.hpgl,.plt,.ngc,.gcode,.nc,.csv", onclick: () => { file.value = ""; }, onchange: () => void this.take([...(file.files ?? [])]) });
+    this.file = file;
     this.on = element("select", { id: "on", onchange: () => void this.choose({ ...this.wanted, circuit: this.on?.value, changes: [] }) },
-      CIRCUITS.map((name) => element("option", { value: name }, name)));
+      [...CIRCUITS, LOGGED].map((name) => element("option", { value: name }, name)));
     this.onRow = element("div", { class: "field", hidden: true }, element("label", { for: "on" }, "Circuit"), this.on);
     this.go = element("button", { type: "button", class: "go", onclick: () => void this.run(this.settings?.changes) }, "Run");
     this.stop = element("button", { type: "button", disabled: true, onclick: () => this.running?.abort() }, "Cancel");
@@ -138,6 +143,10 @@ class Page {
     }
     if (!this.runner) return;
     void this.runner.ready();
+    window.addEventListener("hashchange", () => {
+      const wanted = wantedIn(location.hash);
+      if (wanted) void this.choose(wanted);
+    });
     await this.choose(wantedIn(location.hash) ?? this.wanted);
     const { circuits } = JSON.parse((await this.runner.run({ words: ["list", "--json"], files: [] })).out);
     this.law.show(circuits);
@@ -185,8 +194,17 @@ class Page {
     const main = files.find(({ name }) => name.endsWith(".toml")) ?? files[0];
     if (!main) return;
     const given = await Promise.all(files.map(async (file) => /** @type {[string, Uint8Array<ArrayBuffer>]} */ ([file.name, new Uint8Array(await file.arrayBuffer())])));
-    const circuit = main.name.endsWith(".toml") ? undefined : this.on?.value;
-    await this.choose({ file: main.name, given, circuit, changes: [] });
+    await this.choose({ file: main.name, given, circuit: this.circuitFor(main.name), changes: [] });
+  }
+
+  /**
+   * The circuit on which a file of the reader's runs; a scenario names its own.
+   * @param {string} name
+   */
+  circuitFor(name) {
+    if (name.endsWith(".toml")) return undefined;
+    if (name.endsWith(".csv")) return LOGGED;
+    return this.on?.value === LOGGED ? CIRCUITS[0] : this.on?.value;
   }
 
   /**
@@ -199,9 +217,13 @@ class Page {
     if (this.choice) this.choice.value = scenario?.file ?? "";
     if (this.about) this.about.textContent = wanted.given ? wanted.file : (scenario?.about ?? "");
     if (this.onRow) this.onRow.hidden = wanted.circuit === undefined;
+    if (this.on && wanted.circuit) this.on.value = wanted.circuit;
+    if (this.file && !wanted.given) this.file.value = "";
     const own = wanted.circuit ? undefined : wanted.given?.find(([name]) => name === wanted.file)?.[1];
     const text = wanted.given ? new TextDecoder().decode(own) : (scenario?.text ?? "");
-    this.text = { ...givenIn(text), ...listsOfTables(text) };
+    this.text = wanted.circuit
+      ? { circuit: JSON.stringify(wanted.circuit), input: JSON.stringify(wanted.file) }
+      : { ...givenIn(text), ...listsOfTables(text) };
     await this.run(wanted.changes);
     await this.showSettings(wanted.changes);
   }
@@ -224,7 +246,9 @@ class Page {
   settingChanged() {
     const changes = this.settings?.changes ?? [];
     const circuit = this.settings?.value("circuit");
-    if (circuit && circuit !== this.shown) void this.showSettings(changes);
+    if (!circuit || circuit === this.shown) return;
+    if (this.on && this.wanted.circuit) this.on.value = circuit;
+    void this.showSettings(changes);
   }
 
   /**
@@ -236,8 +260,10 @@ class Page {
     const running = new AbortController();
     this.running = running;
     this.wanted = { ...this.wanted, changes };
-    if (!this.wanted.given) history.replaceState(null, "", linkOf(this.wanted));
+    // Files of the reader's are in no link.
+    history.replaceState(null, "", this.wanted.given ? location.pathname + location.search : linkOf(this.wanted));
     this.busy(true);
+    this.outdate();
     clear(/** @type {HTMLElement} */ (this.problem));
     try {
       const began = performance.now();
@@ -253,6 +279,12 @@ class Page {
     } finally {
       if (this.running === running) this.busy(false);
     }
+  }
+
+  /** What is shown is of an earlier run until this one has something to show. */
+  outdate() {
+    for (const name of SHOWN) this.pane(name).classList.add("outdated");
+    clear(/** @type {HTMLElement} */ (this.files));
   }
 
   /** @param {boolean} busy */
@@ -282,7 +314,10 @@ class Page {
     if (began < this.sofarFrom) return;
     const whole = bytes.subarray(0, bytes.lastIndexOf(10) + 1);
     const series = readSeries(whole);
-    if (series.rows > 1) this.path.show(series, { clockHz: 0, title: "so far" });
+    if (series.rows > 1) {
+      this.path.show(series, { clockHz: 0, title: "so far" });
+      this.pane("Path").classList.remove("outdated");
+    }
     // A long series takes a fifth of the time at most.
     this.sofarFrom = performance.now() + 4 * (performance.now() - began);
   }
@@ -298,6 +333,7 @@ class Page {
       this.settings?.refuse(summary.error.faults ?? []);
       return;
     }
+    for (const name of SHOWN) this.pane(name).classList.remove("outdated");
     clear(this.pane("Summary")).append(summaryView(result.out));
     const [csv, npy] = [fileWith(result, ".csv"), fileWith(result, ".npy")];
     const series = csv ? readSeries(csv) : npy && readNpy(npy);
@@ -327,6 +363,8 @@ class Page {
     this.playhead.limit(0, 1e6);
     await this.waves.show(dump, { clockHz: 0, save: save && readSave(new TextDecoder().decode(save)) });
     this.tabs.open("Waves");
+    this.pane("Waves").classList.remove("outdated");
+    this.say("The waves are those of the counterexample. Run brings those of the scenario.");
   }
 
   /** @param {string} name @returns {Promise<import("./diagram.js").Circuit>} */

@@ -14,6 +14,9 @@
 const RUN_FILES = "out";
 const RUN_SERIES = `${RUN_FILES}/path.csv`;
 
+/** A name that begins as an option does is a path. @param {string} file */
+const pathOf = (file) => (file.startsWith("-") ? `./${file}` : file);
+
 /**
  * Words and files of a run.
  * @param {Wanted} wanted
@@ -24,7 +27,7 @@ export function jobOf({ file, given, circuit, changes }, format = "fst") {
   const sets = circuit ? [`circuit=${circuit}`, ...changes] : changes;
   return {
     words: [
-      ...["run", file, "--json", "--format", format, "--out", RUN_FILES, "--series", RUN_SERIES],
+      ...["run", pathOf(file), "--json", "--format", format, "--out", RUN_FILES, "--series", RUN_SERIES],
       ...sets.flatMap((change) => ["--set", change]),
     ],
     files: given ?? [],
@@ -39,7 +42,7 @@ export function commandOf({ file, circuit, changes }) {
   const sets = circuit ? [`circuit=${circuit}`, ...changes] : changes;
   const quoted = (/** @type {string} */ word) =>
     /^[\w./=,:+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
-  return ["motion-rtl run", quoted(file), ...sets.map((change) => `--set ${quoted(change)}`)].join(" ");
+  return ["motion-rtl run", quoted(pathOf(file)), ...sets.map((change) => `--set ${quoted(change)}`)].join(" ");
 }
 
 /**

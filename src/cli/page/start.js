@@ -85,7 +85,10 @@ async function unzipped(text) {
 
 /** @param {string} address */
 async function fetched(address) {
-  const response = await fetch(address);
-  if (!response.ok) throw new Error(`${address}: ${response.status} ${response.statusText}`);
+  const response = await fetch(address).catch(() => undefined);
+  if (!response?.ok) {
+    const why = response ? `${response.status} ${response.statusText}` : "it cannot be read";
+    throw new Error(`${address}: ${why}. This page needs a server of files; motion-rtl.html needs none`);
+  }
   return response.arrayBuffer();
 }

@@ -135,9 +135,13 @@ export class WavesPane extends EventTarget {
     this.#formats = new Map(saved.flatMap((row) => (row.signal ? [[row.signal.path, row.format]] : [])));
     this.#scroll.scrollTop = 0;
     this.#rows.reset(saved.length > 0 ? saved : (top?.signals ?? []).map((signal) => signalRow(signal, 0)));
-    this.#canvas.show(dump, save?.shown ? inUnits(save.shown, dump.unit) : null);
+    const shown = save?.shown ? inUnits(save.shown, dump.unit) : null;
+    this.#canvas.show(dump, shown);
     this.#lastTime = NaN;
     this.#cursor.show(dump);
+    // Values at the cursor are those of a place that is seen.
+    const isSeen = !shown || (this.#cursor.time >= shown.start && this.#cursor.time <= shown.end);
+    if (!isSeen) this.#cursor.goToTickAt((shown.start + shown.end) / 2);
   }
 
   /**
