@@ -61,8 +61,10 @@ def address(request):
     if request.param == "served":
         words = [PROGRAM, "serve", "--port", str(free_port())]
         with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as server:
-            yield server.stdout.readline().strip()
-            server.terminate()
+            try:
+                yield server.stdout.readline().strip()
+            finally:
+                server.terminate()
         return
     handler = functools.partial(Quiet, directory=request.getfixturevalue("page_files"))
     with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:

@@ -1,5 +1,6 @@
 """What a reader does with the page, and that it shows what the program prints and writes."""
 
+import contextlib
 import functools
 import json
 import os
@@ -10,6 +11,7 @@ import subprocess
 import tempfile
 import time
 import urllib.error
+import urllib.parse
 import urllib.request
 
 import pytest
@@ -391,10 +393,20 @@ def test_the_page_of_a_run_shows_it_without_the_program(page, tmp_path, series):
     assert page.locator(".path-canvas").is_visible()
 
 
-def test_another_site_is_refused(tmp_path):
-    port = free_port()
-    with subprocess.Popen([PROGRAM, "serve", "--port", str(port)], stdout=subprocess.PIPE, text=True) as server:
-        address = server.stdout.readline().strip()
+@contextlib.contextmanager
+def serving(**more):
+    """A server and its address; it ends with the test, however that ends."""
+    words = [PROGRAM, "serve", "--port", str(free_port())]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, **more) as server:
+        try:
+            yield server, server.stdout.readline().strip()
+        finally:
+            server.terminate()
+
+
+def test_another_site_is_refused():
+    with serving() as (_, address):
+        port = urllib.parse.urlsplit(address).port
         statuses = []
         for headers in [{}, {"Origin": "http://example.org"}, {"Host": f"example.org:{port}"}]:
             asked = urllib.request.Request(address, headers=headers)
@@ -403,7 +415,6 @@ def test_another_site_is_refused(tmp_path):
                     statuses.append(answer.status)
             except urllib.error.HTTPError as error:
                 statuses.append(error.code)
-        server.terminate()
     assert statuses == [200, 403, 403]
 
 
@@ -429,12 +440,20 @@ def until(found, seconds=60):
     raise AssertionError("not in time")
 
 
-@pytest.mark.parametrize("name", ["SIGTERM", "SIGINT", "SIGHUP"])
+ENDING = ["SIGTERM", "SIGINT", "SIGHUP"]
+
+
+def heard():
+    """A test in the background is begun with some signals ignored, which its children would be too."""
+    for name in ENDING:
+        signal.signal(getattr(signal, name), signal.SIG_DFL)
+
+
+@pytest.mark.parametrize("name", ENDING)
 def test_a_signal_ends_jobs_and_removes_their_directories(tmp_path, name):
-    words = [PROGRAM, "serve", "--port", str(free_port())]
     environment = os.environ | {"TMPDIR": str(tmp_path)}
-    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment) as server:
-        begun(server.stdout.readline().strip(), "run", "waves/feed.toml", "--out", "out")
+    with serving(env=environment, preexec_fn=heard) as (server, address):
+        begun(address, "run", "waves/feed.toml", "--out", "out")
         job = until(lambda: list(tmp_path.glob("motion-rtl-*/work/out/.*")))[0]
         # A child is that of the thread that has begun it.
         tasks = pathlib.Path(f"/proc/{server.pid}/task").glob("*/children")
@@ -447,10 +466,9 @@ def test_a_signal_ends_jobs_and_removes_their_directories(tmp_path, name):
 
 
 def test_the_series_so_far_is_read_in_parts():
-    words = [PROGRAM, "serve", "--port", str(free_port())]
-    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as server:
+    with serving() as (_, address):
         job = begun(
-            server.stdout.readline().strip(),
+            address,
             "run", "waves/feed.toml", "--no-vcd", "--out", "out", "--series", "out/path.csv", "--series-every", "1",
         )
         series = ""
@@ -461,7 +479,6 @@ def test_the_series_so_far_is_read_in_parts():
         assert asked(f"{job}?from=0")["series"] == ""
         asked_to_end = urllib.request.Request(job, method="DELETE")
         urllib.request.urlopen(asked_to_end).close()
-        server.terminate()
     head, *rows = series.splitlines()
     assert head.startswith("tick,time_s,")
     assert [int(row.split(",")[0]) for row in rows] == list(range(len(rows)))
