@@ -1,4 +1,4 @@
-//! What stands for compiled code where nothing compiles: circuits are interpreted.
+//! Builds without a compiler: a type for compiled code that has no values. Circuits are interpreted.
 
 use super::plan::Plan;
 

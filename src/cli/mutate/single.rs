@@ -50,7 +50,7 @@ struct Run {
     waves: Vec<String>,
 }
 
-/// What finds a single fault.
+/// Checks that find a single fault, and properties that do not.
 #[derive(Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Report {

@@ -35,7 +35,7 @@ import { clear, element } from "./dom.js";
  */
 
 /**
- * What finds a single fault: `mutate --fault --json`.
+ * Checks that find a single fault, and properties that do not: `mutate --fault --json`.
  * @typedef {object} SingleFault
  * @property {number} number
  * @property {string} fault

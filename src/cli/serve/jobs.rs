@@ -255,7 +255,7 @@ fn tail(path: &Path, from: u64, most: u64, grows: bool) -> io::Result<Vec<u8>> {
 }
 
 /// Returns lines of the series that a job is writing, from a byte on; none before there is one.
-/// It has a hidden name until it is complete.
+/// The name of the file begins with a dot until the file is complete.
 fn series(directory: &Path, from: u64) -> io::Result<Vec<u8>> {
     let hidden = |path: &Path| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();

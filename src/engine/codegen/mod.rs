@@ -1,4 +1,4 @@
-//! What all compilers of plans share.
+//! Parts of code generation that the compilers to machine code and to WebAssembly share.
 
 mod parts;
 mod runs;
